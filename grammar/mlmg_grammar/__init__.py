@@ -1,0 +1,1 @@
+"""The definition of Motion Script's syntax."""

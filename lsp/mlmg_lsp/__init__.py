@@ -1,0 +1,1 @@
+"""Motion Script in editors that speak the language server protocol."""

@@ -1,0 +1,1 @@
+"""The runtime of Motion Script: clips, motion graphs, libraries, playing, BVH. It knows no language."""

@@ -1,0 +1,1 @@
+"""Reading and writing BVH files: `read(path)` and `write(bvh, path)`."""

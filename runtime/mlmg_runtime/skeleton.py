@@ -1,0 +1,129 @@
+"""Skeletons: a tree of joints, which of them move by position channels, and where each stands in the world."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from mlmg_runtime import rotations
+from mlmg_runtime.arrays import FloatArray
+from mlmg_runtime.bvh.document import Joint
+
+
+@dataclass(frozen=True)
+class Skeleton:
+    """A tree of joints, parents before their children.
+
+    The *travel joint* carries the body through the world: the last joint of the chain that starts at the root, as
+    long as each joint there has one child and that child has position channels. Usually it is the root; where a
+    standing root lies above the hips, it is the hips. Joints above it never move.
+
+    Attributes
+    ----------
+    joints : as in the BVH file; offsets in the library's length unit.
+    """
+
+    joints: tuple[Joint, ...]
+
+    @cached_property
+    def names(self) -> tuple[str, ...]:
+        """Return the joint names in order."""
+        return tuple(joint.name for joint in self.joints)
+
+    @cached_property
+    def parents(self) -> tuple[int, ...]:
+        """Return the index of each joint's parent, -1 for the root."""
+        return tuple(joint.parent for joint in self.joints)
+
+    @cached_property
+    def children(self) -> tuple[tuple[int, ...], ...]:
+        """Return the indices of each joint's children."""
+        return tuple(
+            tuple(index for index, parent in enumerate(self.parents) if parent == joint)
+            for joint in range(len(self.joints))
+        )
+
+    @cached_property
+    def travel(self) -> int:
+        """Return the index of the joint that carries the body through the world."""
+        joint = 0
+        while len(self.children[joint]) == 1 and has_positions(self.joints[self.children[joint][0]]):
+            joint = self.children[joint][0]
+        return joint
+
+    @cached_property
+    def positioned(self) -> tuple[int, ...]:
+        """Return the joints whose local position changes: the travel joint first, then others with position channels."""
+        return (self.travel, *(j for j in range(self.travel + 1, len(self.joints)) if has_positions(self.joints[j])))
+
+    @cached_property
+    def body(self) -> tuple[int, ...]:
+        """Return the joints from the travel joint down: what moves."""
+        return tuple(range(self.travel, len(self.joints)))
+
+    def subtree(self, joint: int) -> frozenset[int]:
+        """Return `joint` and all joints below it."""
+        found = {joint}
+        for index in range(joint + 1, len(self.joints)):
+            if self.parents[index] in found:
+                found.add(index)
+        return frozenset(found)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Poses:
+    """Poses of a skeleton, one a frame; y up, the library's length unit.
+
+    Attributes
+    ----------
+    rotations : array, shape (n_frames, n_joints, 4). Local rotations, unit quaternions (w, x, y, z).
+    positions : array, shape (n_frames, len(skeleton.positioned), 3). Local positions of the positioned joints; that of
+        the travel joint, the first, is its position in the world.
+    """
+
+    rotations: FloatArray
+    positions: FloatArray
+
+    @property
+    def n_frames(self) -> int:
+        """Return the number of frames."""
+        return int(self.rotations.shape[0])
+
+    def __getitem__(self, frames: slice) -> Poses:
+        """Return some of the frames, sharing memory."""
+        return Poses(self.rotations[frames], self.positions[frames])
+
+
+def has_positions(joint: Joint) -> bool:
+    """Return whether the joint has position channels, which replace its offset."""
+    return any(channel.endswith("position") for channel in joint.channels)
+
+
+def world_positions(skeleton: Skeleton, poses: Poses) -> FloatArray:
+    """Return the joints' positions in the world, shape (n_frames, n_joints, 3): forward kinematics."""
+    return world_transforms(skeleton, poses)[1]
+
+
+def world_transforms(skeleton: Skeleton, poses: Poses) -> tuple[FloatArray, FloatArray]:
+    """Return world rotations, shape (n_frames, n_joints, 4), and world positions, shape (n_frames, n_joints, 3).
+
+    Joints above the travel joint stand at the origin, unturned, whatever their offsets say: a pose holds the travel
+    joint's place in the world.
+    """
+    n_frames, n_joints = poses.rotations.shape[:2]
+    world_rotation = np.empty((n_frames, n_joints, 4))
+    world_position = np.empty((n_frames, n_joints, 3))
+    travel = skeleton.travel
+    world_rotation[:, :travel] = (1.0, 0.0, 0.0, 0.0)
+    world_position[:, :travel] = 0.0
+    local = {joint: poses.positions[:, column] for column, joint in enumerate(skeleton.positioned)}
+    world_rotation[:, travel] = poses.rotations[:, travel]
+    world_position[:, travel] = local[travel]
+    for joint in range(travel + 1, n_joints):
+        parent = skeleton.parents[joint]
+        offset = local.get(joint, np.asarray(skeleton.joints[joint].offset))
+        world_rotation[:, joint] = rotations.multiply(world_rotation[:, parent], poses.rotations[:, joint])
+        world_position[:, joint] = world_position[:, parent] + rotations.rotate(world_rotation[:, parent], offset)
+    return world_rotation, world_position
