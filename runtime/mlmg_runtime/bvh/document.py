@@ -38,7 +38,8 @@ class Bvh:
     ----------
     joints : depth first, as in the file; the first is the root.
     frame_time_s : seconds from one frame to the next.
-    frames : array, shape (n_frames, n_channels), read-only. Channel values in file order: degrees, file units.
+    frames : array, shape (n_frames, n_channels), read-only. Channel values in file order: degrees and
+        file units.
     warnings : what was odd in the file but could be read, one sentence each.
     """
 

@@ -1,0 +1,63 @@
+"""Writing files all or nothing."""
+
+from __future__ import annotations
+
+import errno
+import os
+import secrets
+import shutil
+import stat
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+
+@contextmanager
+def atomic_output(path: str | Path) -> Iterator[Path]:
+    """Give a new, empty file beside `path` to write, and rename it to `path` at the end of the block.
+
+    Until then, and for good if the block raises, `path` is untouched, and nothing is left beside it. A
+    symbolic link keeps pointing at what is replaced; the permissions of an existing file are kept, and a new
+    one gets the usual ones. What is no regular file, such as /dev/stdout or a pipe, cannot be replaced: then
+    the path itself is given.
+
+    Raises
+    ------
+    OSError
+        If `path` is a folder, may not be written, or no file can be made beside it; the error names `path`.
+    """
+    if _is_device(path):
+        yield Path(path)
+        return
+    target = Path(os.path.realpath(path))
+    _check_writable(target, path)
+    beside = target.with_name(f".{secrets.token_hex(8)}.tmp")
+    try:
+        # Made by `open`, not by `tempfile`, so that it gets the permissions of any new file.
+        os.close(os.open(beside, os.O_CREAT | os.O_EXCL | os.O_WRONLY, 0o666))
+    except OSError as error:
+        raise type(error)(error.errno, error.strerror, str(path)) from None
+    try:
+        yield beside
+        if target.exists():
+            shutil.copymode(target, beside)
+        os.replace(beside, target)
+    except BaseException:
+        beside.unlink(missing_ok=True)
+        raise
+
+
+def _is_device(path: str | Path) -> bool:
+    try:
+        mode = os.stat(path).st_mode
+    except FileNotFoundError:
+        return False
+    return not (stat.S_ISREG(mode) or stat.S_ISDIR(mode))
+
+
+def _check_writable(target: Path, path: str | Path) -> None:
+    """Raise what opening `target` for writing would raise: a rename does not ask."""
+    if target.is_dir():
+        raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR), str(path))
+    if target.exists() and not os.access(target, os.W_OK):
+        raise PermissionError(errno.EACCES, os.strerror(errno.EACCES), str(path))
