@@ -41,3 +41,7 @@ class ConfigurationError(FileError):
 
 class LibraryError(FileError):
     """A built library that cannot be opened, or clips that do not fit together."""
+
+
+class PlayError(MlmgError):
+    """A library does not allow what is to be played."""

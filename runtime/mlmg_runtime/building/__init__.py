@@ -1,0 +1,1 @@
+"""Building a library, offline: clips and a configuration become motion graphs in a database."""

@@ -1,0 +1,138 @@
+"""Which candidates become transitions: the threshold, the bridges, and the part of the graph that never ends."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import NamedTuple, TypeAlias
+
+import numpy as np
+
+from mlmg_runtime.arrays import BoolArray, FloatArray, IntArray
+
+Connected: TypeAlias = Callable[[BoolArray], bool]
+
+
+class Edges(NamedTuple):
+    """Directed transitions (A_i -> B_j) of a graph; arrays of one length.
+
+    `candidate` is the index of the pair of windows that the transition comes from: a pair gives up to two.
+    """
+
+    src_motion: IntArray
+    src_frame: IntArray
+    dst_motion: IntArray
+    dst_frame: IntArray
+    distance: FloatArray
+    candidate: IntArray
+
+    def where(self, keep: BoolArray) -> Edges:
+        """Return some of the transitions."""
+        return Edges(*(column[keep] for column in self))
+
+
+class Positions:
+    """Numbers the positions (motion, frame) of a graph, and finds which can reach each other."""
+
+    def __init__(self, n_frames: IntArray) -> None:
+        """Number the frames of motions of `n_frames` frames, shape (n_motions,), one after the other."""
+        self.n_frames = n_frames
+        self.first = np.concatenate(([0], np.cumsum(n_frames)))
+        within = np.ones(self.first[-1], dtype=bool)
+        within[self.first[1:] - 1] = False
+        self._next = np.flatnonzero(within)
+
+    def component(self, edges: Edges) -> BoolArray:
+        """Return which positions lie in the largest strongly connected component, shape (sum of n_frames,).
+
+        A transition leads to the position after its last blended frame; one that ends with its clip leads nowhere.
+        """
+        from scipy.sparse import coo_array
+        from scipy.sparse.csgraph import connected_components
+
+        lands = edges.dst_frame + 1 < self.n_frames[edges.dst_motion]
+        source = np.concatenate((self._next, self.source(edges)[lands]))
+        target = np.concatenate((self._next + 1, self.target(edges)[lands]))
+        shape = (int(self.first[-1]), int(self.first[-1]))
+        links = coo_array((np.ones(len(source), dtype=np.int8), (source, target)), shape=shape)
+        _, labels = connected_components(links.tocsr(), directed=True, connection="strong")
+        sizes = np.bincount(labels)
+        if sizes.max() == 1:
+            return np.zeros(len(labels), dtype=bool)
+        return np.asarray(labels == sizes.argmax())
+
+    def source(self, edges: Edges) -> IntArray:
+        """Return the number of the position that each transition leaves from."""
+        return np.asarray(self.first[edges.src_motion] + edges.src_frame)
+
+    def target(self, edges: Edges) -> IntArray:
+        """Return the number of the position that each transition leads to."""
+        return np.asarray(self.first[edges.dst_motion] + edges.dst_frame + 1)
+
+    def motions_in(self, component: BoolArray) -> BoolArray:
+        """Return which motions have a position in the component, shape (n_motions,)."""
+        return np.asarray(np.add.reduceat(component, self.first[:-1]) > 0)
+
+    def inside(self, edges: Edges, component: BoolArray) -> BoolArray:
+        """Return which transitions leave from and lead to a position in the component."""
+        lands = edges.dst_frame + 1 < self.n_frames[edges.dst_motion]
+        target = np.where(lands, self.target(edges), 0)
+        return np.asarray(component[self.source(edges)] & lands & component[target])
+
+
+def bridges(positions: Positions, edges: Edges, sigma: float) -> BoolArray:
+    """Return which transitions to keep so that as many motions as possible can be reached from each other.
+
+    All whose distance is at most `sigma` are kept; above it only those that are needed, and of these the best: going
+    from the dearest down, each pair of windows is given up if the motions hang together without it.
+
+    Returns
+    -------
+    array, shape (n_edges,), bool.
+    """
+    order = np.argsort(edges.distance, kind="stable")
+    wanted = positions.motions_in(positions.component(edges))
+
+    def connected(keep: BoolArray) -> bool:
+        component = positions.component(edges.where(keep))
+        return bool(np.all(positions.motions_in(component)[wanted]))
+
+    keep = edges.distance <= sigma
+    if connected(keep):
+        return keep
+    keep = _least_connecting(edges, order, connected)
+    dearest_first = order[::-1]
+    above = dearest_first[(keep & (edges.distance > sigma))[dearest_first]]
+    dear = list(dict.fromkeys(edges.candidate[above].tolist()))
+    return _give_up(edges, keep, dear, connected)
+
+
+def _least_connecting(edges: Edges, order: IntArray, connected: Connected) -> BoolArray:
+    """Return the transitions up to the smallest distance at which all hang together."""
+    values = edges.distance[order]
+    low, high = 0, len(values) - 1
+    while low < high:
+        middle = (low + high) // 2
+        if connected(edges.distance <= values[middle]):
+            high = middle
+        else:
+            low = middle + 1
+    return np.asarray(edges.distance <= values[low])
+
+
+def _give_up(edges: Edges, keep: BoolArray, dear: list[int], connected: Connected) -> BoolArray:
+    """Return `keep` less all of the pairs `dear`, dearest first, that are not needed.
+
+    Runs of pairs are tried at once and halved where one of them is needed: what can be given up together can be given
+    up one by one.
+    """
+    runs = [dear]
+    while runs:
+        run = runs.pop()
+        if not run:
+            continue
+        without = keep & ~np.isin(edges.candidate, run)
+        if connected(without):
+            keep = without
+        elif len(run) > 1:
+            runs += [run[len(run) // 2 :], run[: len(run) // 2]]
+    return keep

@@ -1,0 +1,116 @@
+"""Reading the clips of a configuration: one skeleton, one frame rate, y up."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from mlmg_runtime import bvh
+from mlmg_runtime.building.configuration import ClipSource, LibraryConfiguration
+from mlmg_runtime.building.mirror import mirrored
+from mlmg_runtime.bvh.document import Bvh
+from mlmg_runtime.clips import poses_from_bvh, resample, skeleton_from_bvh
+from mlmg_runtime.errors import BvhError, ConfigurationError, LibraryError
+from mlmg_runtime.skeleton import Poses, Skeleton, has_positions
+
+OFFSET_TOLERANCE = 0.05
+
+
+@dataclass(frozen=True, slots=True)
+class Clips:
+    """The clips of a library, by motion name in configuration order; `frame_rate` in frames a second."""
+
+    skeleton: Skeleton
+    frame_rate: float
+    poses: Mapping[str, Poses]
+    warnings: tuple[str, ...]
+
+
+def load_clips(configuration: LibraryConfiguration, progress: Callable[[int, int], None]) -> Clips:
+    """Read, check, cut, mirror and resample the clips; `progress` is called with how many are read, and of how many.
+
+    Raises
+    ------
+    BvhError, LibraryError, ConfigurationError
+        If a clip cannot be read, has another skeleton than the first, or fewer frames than asked of it.
+    """
+    skeleton: Skeleton | None = None
+    frame_rate = configuration.frame_rate
+    poses: dict[str, Poses] = {}
+    warnings: list[str] = []
+    for done, clip in enumerate(configuration.clips):
+        progress(done, len(configuration.clips))
+        document = bvh.read(clip.path)
+        warnings += [f"{clip.path}: {warning}" for warning in document.warnings]
+        own = skeleton_from_bvh(document)
+        if skeleton is None:
+            skeleton = own
+        _check_agreement(skeleton, configuration.clips[0], own, clip)
+        rate = 1.0 / document.frame_time_s
+        frame_rate = frame_rate or rate
+        poses[clip.name] = _poses(configuration, clip, document, skeleton, rate, frame_rate)
+    progress(len(configuration.clips), len(configuration.clips))
+    assert skeleton is not None and frame_rate is not None  # a configuration has at least one clip
+    return Clips(skeleton, frame_rate, poses, tuple(warnings))
+
+
+def _poses(
+    configuration: LibraryConfiguration,
+    clip: ClipSource,
+    document: Bvh,
+    skeleton: Skeleton,
+    rate: float,
+    frame_rate: float,
+) -> Poses:
+    n_frames = document.frames.shape[0]
+    poses = poses_from_bvh(document, configuration.up)
+    if clip.frames is not None:
+        first, end = clip.frames
+        if end > n_frames:
+            raise ConfigurationError(
+                configuration.path,
+                clip.line,
+                f"frames = [{first}, {end}], but {clip.path} has {n_frames} frames",
+            )
+        poses = poses[first:end]
+    if poses.n_frames == 0:
+        raise BvhError(clip.path, None, "the clip has no frames; a motion needs at least one")
+    if clip.mirror:
+        poses = mirrored(skeleton, poses)
+    return resample(poses, rate, frame_rate)
+
+
+def _check_agreement(first: Skeleton, first_clip: ClipSource, own: Skeleton, clip: ClipSource) -> None:
+    """Refuse a clip whose joints, tree or bones differ from the first clip's."""
+
+    def fail(message: str) -> None:
+        raise LibraryError(
+            clip.path, None, f"{message}, in {first_clip.path}; the clips of a library share a skeleton"
+        )
+
+    for name in own.names:
+        if name not in first.names:
+            fail(f"has a joint `{name}` that is not there")
+    for index, name in enumerate(first.names):
+        if name not in own.names:
+            fail(f"has no joint `{name}`, which is there")
+        if own.names[index] != name:
+            fail(f"has the joint `{own.names[index]}` where `{name}` stands")
+        mine, theirs = own.joints[index], first.joints[index]
+        if mine.parent != theirs.parent:
+            fail(
+                f"hangs the joint `{name}` on `{own.names[mine.parent]}`, not on `{first.names[theirs.parent]}`"
+            )
+        if has_positions(mine) != has_positions(theirs):
+            fail(
+                f"{'gives' if has_positions(mine) else 'does not give'} positions to the joint `{name}`, unlike"
+            )
+        apart = float(np.abs(np.subtract(mine.offset, theirs.offset)).max())
+        if apart > OFFSET_TOLERANCE and not has_positions(mine) and index != own.travel:
+            fail(f"has the joint `{name}` at OFFSET {_offset(mine.offset)}, not {_offset(theirs.offset)}")
+
+
+def _offset(offset: tuple[float, float, float]) -> str:
+    return " ".join(f"{value:g}" for value in offset)

@@ -1,0 +1,229 @@
+"""A library as one SQLite file: clips and transitions as packed blobs, everything else as small tables."""
+
+from __future__ import annotations
+
+import json
+import sqlite3
+from collections.abc import Iterator
+from contextlib import closing, contextmanager
+from dataclasses import asdict
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from mlmg_runtime.bvh.document import Joint
+from mlmg_runtime.errors import LibraryError
+from mlmg_runtime.files import atomic_output
+from mlmg_runtime.motion_graph import TRANSITION, MotionGraph
+from mlmg_runtime.skeleton import Poses, Skeleton
+
+if TYPE_CHECKING:
+    from mlmg_runtime.building.build import BuiltLibrary
+
+# "mlmg" in ASCII: says whose SQLite file this is.
+APPLICATION_ID = 0x6D6C6D67
+FORMAT_VERSION = 1
+
+_SCHEMA = """
+CREATE TABLE property (name TEXT PRIMARY KEY, value TEXT NOT NULL);
+CREATE TABLE clip (
+    name TEXT PRIMARY KEY, n_frames INTEGER NOT NULL, source TEXT NOT NULL,
+    rotations BLOB NOT NULL,   -- float32, (n_frames, n_joints, 4), w x y z
+    positions BLOB NOT NULL    -- float64, (n_frames, n_positioned, 3)
+);
+CREATE TABLE graph (
+    name TEXT PRIMARY KEY, ordinal INTEGER NOT NULL, parent TEXT REFERENCES graph (name),
+    joints TEXT NOT NULL, weights TEXT NOT NULL, window INTEGER NOT NULL, sigma REAL NOT NULL, blend TEXT NOT NULL,
+    report TEXT NOT NULL,
+    transitions BLOB NOT NULL, -- packed, see motion_graph.TRANSITION
+    oms BLOB NOT NULL,         -- float64, (n_motions, n_motions)
+    hops BLOB NOT NULL         -- int64, (n_motions, n_motions)
+);
+CREATE TABLE motion (
+    graph TEXT NOT NULL REFERENCES graph (name), ordinal INTEGER NOT NULL,
+    clip TEXT NOT NULL REFERENCES clip (name), tags TEXT NOT NULL,
+    PRIMARY KEY (graph, ordinal)
+);
+"""
+
+
+def write_database(built: BuiltLibrary, path: Path) -> None:
+    """Write a built library; the file appears whole or not at all.
+
+    Raises
+    ------
+    OSError
+        If the file cannot be written.
+    """
+    with atomic_output(path) as temporary:
+        Path(temporary).unlink(missing_ok=True)
+        with closing(sqlite3.connect(temporary)) as connection, connection:
+            connection.executescript(_SCHEMA)
+            connection.execute(f"PRAGMA application_id = {APPLICATION_ID}")
+            connection.execute(f"PRAGMA user_version = {FORMAT_VERSION}")
+            _write_properties(connection, built)
+            _write_clips(connection, built)
+            _write_graphs(connection, built)
+
+
+def _write_properties(connection: sqlite3.Connection, built: BuiltLibrary) -> None:
+    properties = {
+        "frame_rate": built.frame_rate,
+        "up": built.up,
+        "start": built.start,
+        "skeleton": [asdict(joint) for joint in built.skeleton.joints],
+        "warnings": built.warnings,
+    }
+    rows = [(name, json.dumps(value, ensure_ascii=False)) for name, value in properties.items()]
+    connection.executemany("INSERT INTO property VALUES (?, ?)", rows)
+
+
+def _write_clips(connection: sqlite3.Connection, built: BuiltLibrary) -> None:
+    connection.executemany(
+        "INSERT INTO clip VALUES (?, ?, ?, ?, ?)",
+        (
+            (
+                name,
+                poses.n_frames,
+                built.sources[name],
+                poses.rotations.astype("<f4").tobytes(),
+                poses.positions.astype("<f8").tobytes(),
+            )
+            for name, poses in built.poses.items()
+        ),
+    )
+
+
+def _write_graphs(connection: sqlite3.Connection, built: BuiltLibrary) -> None:
+    for ordinal, (graph, report) in enumerate(zip(built.graphs, built.reports, strict=True)):
+        connection.execute(
+            "INSERT INTO graph VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
+            (
+                graph.name,
+                ordinal,
+                graph.parent,
+                json.dumps(graph.joints),
+                json.dumps(graph.weights.tolist()),
+                graph.window,
+                graph.sigma,
+                graph.blend,
+                json.dumps(asdict(report), ensure_ascii=False),
+                graph.transitions.tobytes(),
+                graph.oms.astype("<f8").tobytes(),
+                graph.hops.astype("<i8").tobytes(),
+            ),
+        )
+        connection.executemany(
+            "INSERT INTO motion VALUES (?, ?, ?, ?)",
+            (
+                (graph.name, at, motion, json.dumps(graph.tags[motion], ensure_ascii=False))
+                for at, motion in enumerate(graph.motions)
+            ),
+        )
+
+
+@contextmanager
+def open_database(path: Path) -> Iterator[sqlite3.Connection]:
+    """Open a library's file for reading, and say plainly if it is none.
+
+    Raises
+    ------
+    LibraryError
+        If the file is not a library, is damaged, or was built by another version.
+    OSError
+        If it cannot be opened.
+    """
+    with path.open("rb"):
+        pass  # a missing or unreadable file is the operating system's to tell
+    try:
+        with closing(sqlite3.connect(f"{path.absolute().as_uri()}?mode=ro", uri=True)) as connection:
+            _check_version(connection, path)
+            yield connection
+    except sqlite3.DatabaseError as error:
+        raise LibraryError(
+            path,
+            None,
+            f"not a readable library ({error}); expected a file that `mlmg build` wrote: build it again",
+        ) from None
+
+
+def _check_version(connection: sqlite3.Connection, path: Path) -> None:
+    (application,) = connection.execute("PRAGMA application_id").fetchone()
+    (version,) = connection.execute("PRAGMA user_version").fetchone()
+    if application != APPLICATION_ID:
+        raise LibraryError(
+            path, None, "an SQLite file, but no library; expected a file that `mlmg build` wrote"
+        )
+    if version != FORMAT_VERSION:
+        raise LibraryError(
+            path,
+            None,
+            f"library format {version}, expected {FORMAT_VERSION}: build it again with this version",
+        )
+
+
+def read_properties(connection: sqlite3.Connection) -> dict[str, Any]:
+    """Return the library's properties by name: frame_rate, up, start, skeleton, warnings."""
+    return {name: json.loads(value) for name, value in connection.execute("SELECT name, value FROM property")}
+
+
+def skeleton_from_json(joints: list[dict[str, Any]]) -> Skeleton:
+    """Return the skeleton that `read_properties` tells of."""
+    return Skeleton(
+        tuple(
+            Joint(
+                name=joint["name"],
+                parent=joint["parent"],
+                offset=tuple(joint["offset"]),
+                channels=tuple(joint["channels"]),
+                end_site=None if joint["end_site"] is None else tuple(joint["end_site"]),
+            )
+            for joint in joints
+        )
+    )
+
+
+def read_graphs(connection: sqlite3.Connection) -> list[tuple[MotionGraph, dict[str, Any]]]:
+    """Return the graphs, parents before children, each with the report of its building."""
+    frames = dict(connection.execute("SELECT name, n_frames FROM clip"))
+    graphs = []
+    columns = "name, parent, joints, weights, window, sigma, blend, report, transitions, oms, hops"
+    for row in connection.execute(f"SELECT {columns} FROM graph ORDER BY ordinal").fetchall():
+        name, parent, joints, weights, window, sigma, blend, report, transitions, oms, hops = row
+        motions = connection.execute(
+            "SELECT clip, tags FROM motion WHERE graph = ? ORDER BY ordinal", (name,)
+        )
+        tags = {clip: tuple(json.loads(words)) for clip, words in motions}
+        shape = (len(tags), len(tags))
+        graph = MotionGraph(
+            name=name,
+            parent=parent,
+            joints=tuple(json.loads(joints)),
+            weights=np.array(json.loads(weights)),
+            window=window,
+            sigma=sigma,
+            blend=blend,
+            motions=tuple(tags),
+            tags=tags,
+            n_frames=np.array([frames[motion] for motion in tags], dtype=np.int64),
+            transitions=np.frombuffer(transitions, dtype=TRANSITION),
+            oms=np.frombuffer(oms, dtype="<f8").reshape(shape),
+            hops=np.frombuffer(hops, dtype="<i8").reshape(shape),
+        )
+        graphs.append((graph, json.loads(report)))
+    return graphs
+
+
+def read_clip(connection: sqlite3.Connection, name: str, skeleton: Skeleton) -> Poses:
+    """Return the poses of one clip; rotations are scaled to unit length after their storage as float32."""
+    row = connection.execute(
+        "SELECT n_frames, rotations, positions FROM clip WHERE name = ?", (name,)
+    ).fetchone()
+    n_frames, rotations, positions = row
+    turned = (
+        np.frombuffer(rotations, dtype="<f4").astype(np.float64).reshape(n_frames, len(skeleton.joints), 4)
+    )
+    turned /= np.linalg.norm(turned, axis=-1, keepdims=True)
+    moved = np.frombuffer(positions, dtype="<f8").reshape(n_frames, len(skeleton.positioned), 3)
+    return Poses(turned, moved)

@@ -1,0 +1,1 @@
+"""Playing, online: positions in motion graphs become a timeline, and the timeline becomes frames."""
