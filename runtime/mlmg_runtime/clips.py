@@ -8,7 +8,7 @@ import numpy as np
 
 from mlmg_runtime import rotations
 from mlmg_runtime.arrays import FloatArray
-from mlmg_runtime.bvh.document import POSITION_CHANNELS, Bvh, Joint
+from mlmg_runtime.bvh.document import POSITION_CHANNELS, ROTATION_CHANNELS, Bvh, Joint
 from mlmg_runtime.skeleton import Poses, Skeleton, has_positions
 
 # Turns a z-up world into a y-up one: (x, y, z) -> (x, z, -y).
@@ -16,20 +16,24 @@ _Y_UP_FROM_Z_UP = rotations.about_axis("X", np.array(-0.5 * np.pi))
 
 
 def skeleton_from_bvh(bvh: Bvh) -> Skeleton:
-    """Return the skeleton of a BVH file; a travel joint without position channels is given them."""
+    """Return the skeleton of a BVH file; the travel joint is given the channels that it lacks of all six.
+
+    For it must be able to take the body anywhere, whatever way it faces.
+    """
     skeleton = Skeleton(bvh.joints)
-    travel = skeleton.joints[skeleton.travel]
-    if has_positions(travel):
-        return skeleton
+    travel = bvh.joints[skeleton.travel]
+    positions = [name for name in POSITION_CHANNELS if name not in travel.channels]
+    turns = [name for name in ROTATION_CHANNELS if name not in travel.channels]
     joints = list(bvh.joints)
-    joints[skeleton.travel] = replace(travel, channels=(*POSITION_CHANNELS, *travel.channels))
+    joints[skeleton.travel] = replace(travel, channels=(*positions, *travel.channels, *turns))
     return Skeleton(tuple(joints))
 
 
 def poses_from_bvh(bvh: Bvh, up: str = "y") -> Poses:
     """Return the poses of a BVH file, y up.
 
-    Whatever the joints above the travel joint do is folded into the travel joint, so that it alone carries the body.
+    Whatever the joints above the travel joint do is folded into the travel joint, so that it alone carries
+    the body.
 
     Parameters
     ----------
@@ -37,70 +41,57 @@ def poses_from_bvh(bvh: Bvh, up: str = "y") -> Poses:
     up : "y" or "z", the vertical axis of the file.
     """
     skeleton = Skeleton(bvh.joints)
-    n_frames = bvh.frames.shape[0]
-    local_rotation = np.empty((n_frames, len(bvh.joints), 4))
-    local_position: dict[int, FloatArray] = {}
+    travel = skeleton.travel
+    rotation = np.empty((bvh.frames.shape[0], len(bvh.joints), 4))
+    position: dict[int, FloatArray] = {}
     column = 0
     for index, joint in enumerate(bvh.joints):
         values = bvh.frames[:, column : column + len(joint.channels)]
         column += len(joint.channels)
-        order = _rotation_order(joint)
-        angles = [values[:, at] for at, name in enumerate(joint.channels) if name.endswith("rotation")]
-        angles_rad = np.radians(np.stack(angles, axis=-1)) if angles else np.empty((n_frames, 0))
-        local_rotation[:, index] = rotations.from_euler(order, angles_rad)
-        if has_positions(joint) or index <= skeleton.travel:
-            position = np.tile(np.asarray(joint.offset), (n_frames, 1))
-            for at, name in enumerate(joint.channels):
-                if name in POSITION_CHANNELS:
-                    position[:, POSITION_CHANNELS.index(name)] = values[:, at]
-            local_position[index] = position
-    _fold_above_travel(skeleton, local_rotation, local_position)
+        rotation[:, index] = _local_rotation(joint, values)
+        if has_positions(joint) or index <= travel:
+            position[index] = _local_position(joint, values)
+    _fold_above_travel(skeleton, rotation, position)
     if up == "z":
-        travel = skeleton.travel
-        local_rotation[:, travel] = rotations.multiply(_Y_UP_FROM_Z_UP, local_rotation[:, travel])
-        local_position[travel] = rotations.rotate(_Y_UP_FROM_Z_UP, local_position[travel])
-    positions = np.stack([local_position[joint] for joint in skeleton.positioned], axis=1)
-    return Poses(local_rotation, positions)
+        rotation[:, travel] = rotations.multiply(_Y_UP_FROM_Z_UP, rotation[:, travel])
+        position[travel] = rotations.rotate(_Y_UP_FROM_Z_UP, position[travel])
+    return Poses(rotation, np.stack([position[joint] for joint in skeleton.positioned], axis=1))
 
 
 def bvh_from_poses(skeleton: Skeleton, poses: Poses, frame_time_s: float, up: str = "y") -> Bvh:
-    """Return poses as a BVH document with the skeleton's hierarchy and channels; angles are continuous in time.
+    """Return poses as a BVH document with the skeleton's hierarchy and channels.
 
-    The joints above the travel joint stand still; `up` is the vertical axis that the file is to have.
+    The joints above the travel joint stand still; `up` is the vertical axis that the file is to have. Angles
+    jump as little as they can from frame to frame. A joint with fewer than three rotation channels turns as
+    near to its pose as they allow.
     """
-    n_frames = poses.n_frames
     travel = skeleton.travel
-    local_rotation = poses.rotations
-    local_position = {joint: poses.positions[:, column] for column, joint in enumerate(skeleton.positioned)}
+    travel_rotation = poses.rotations[:, travel]
+    position = {joint: poses.positions[:, column] for column, joint in enumerate(skeleton.positioned)}
     if up == "z":
         back = rotations.inverse(_Y_UP_FROM_Z_UP)
-        local_rotation = local_rotation.copy()
-        local_rotation[:, travel] = rotations.multiply(back, local_rotation[:, travel])
-        local_position[travel] = rotations.rotate(back, local_position[travel])
-    above = [joint for joint in skeleton.joints[:travel] if not has_positions(joint)]
-    local_position[travel] = local_position[travel] - np.sum([joint.offset for joint in above] or [(0.0, 0.0, 0.0)], axis=0)
+        travel_rotation = rotations.multiply(back, travel_rotation)
+        position[travel] = rotations.rotate(back, position[travel])
+    for joint in skeleton.joints[:travel]:
+        position[travel] = position[travel] - _standing_position(joint)
     columns: list[FloatArray] = []
     for index, joint in enumerate(skeleton.joints):
-        angles = _angles_deg(joint, local_rotation[:, index]) if _rotation_order(joint) else {}
-        for channel in joint.channels:
-            if channel in POSITION_CHANNELS:
-                position = local_position.get(index)
-                columns.append(np.zeros(n_frames) if position is None else position[:, POSITION_CHANNELS.index(channel)])
-            else:
-                columns.append(angles[channel])
+        turned = travel_rotation if index == travel else poses.rotations[:, index]
+        values = _channel_values(joint, turned, position.get(index))
+        columns.extend(values[channel] for channel in joint.channels)
     return Bvh(skeleton.joints, frame_time_s, np.stack(columns, axis=1))
 
 
 def resample(poses: Poses, rate: float, new_rate: float) -> Poses:
     """Return the same movement at another number of frames a second; both rates in frames a second.
 
-    Frames that fall between two are blended: rotations by slerp, positions linearly. The last frame is the last one
-    that still lies inside the clip.
+    Frames that fall between two are blended: rotations by slerp, positions linearly. The last frame is the
+    last one that still lies inside the clip.
     """
     if poses.n_frames < 2 or abs(rate - new_rate) < 1e-3 * new_rate:
         return poses
     n_frames = int(np.floor((poses.n_frames - 1) * new_rate / rate + 1e-6)) + 1
-    return sample(poses, np.arange(n_frames) * (rate / new_rate))
+    return sample(poses, np.arange(n_frames, dtype=np.float64) * (rate / new_rate))
 
 
 def sample(poses: Poses, at_frame: FloatArray) -> Poses:
@@ -109,20 +100,44 @@ def sample(poses: Poses, at_frame: FloatArray) -> Poses:
     after = np.minimum(before + 1, poses.n_frames - 1)
     share = at_frame - before
     turned = rotations.slerp(poses.rotations[before], poses.rotations[after], share[:, None])
-    moved = poses.positions[before] + share[:, None, None] * (poses.positions[after] - poses.positions[before])
-    return Poses(turned, moved)
+    step = poses.positions[after] - poses.positions[before]
+    return Poses(turned, poses.positions[before] + share[:, None, None] * step)
 
 
 def _rotation_order(joint: Joint) -> str:
-    return "".join(channel[0] for channel in joint.channels if channel.endswith("rotation"))
+    return "".join(channel[0] for channel in joint.channels if channel in ROTATION_CHANNELS)
 
 
-def _angles_deg(joint: Joint, local: FloatArray) -> dict[str, FloatArray]:
-    """Return the joint's rotation channels by name; axes without a channel are taken to be last, and left out."""
+def _local_rotation(joint: Joint, values: FloatArray) -> FloatArray:
+    """Return the rotations of a joint, shape (n_frames, 4), from the values of its channels."""
+    angles = [at for at, channel in enumerate(joint.channels) if channel in ROTATION_CHANNELS]
+    return rotations.from_euler(_rotation_order(joint), np.radians(values[:, angles]))
+
+
+def _local_position(joint: Joint, values: FloatArray) -> FloatArray:
+    """Return the positions of a joint in its parent, shape (n_frames, 3): channels, or else the offset."""
+    position = np.tile(np.asarray(joint.offset), (values.shape[0], 1))
+    for at, channel in enumerate(joint.channels):
+        if channel in POSITION_CHANNELS:
+            position[:, POSITION_CHANNELS.index(channel)] = values[:, at]
+    return position
+
+
+def _standing_position(joint: Joint) -> FloatArray:
+    """Return where a joint is in its parent when its channels are zero, shape (3,)."""
+    return _local_position(joint, np.zeros((1, len(joint.channels)))).reshape(3)
+
+
+def _channel_values(joint: Joint, turned: FloatArray, position: FloatArray | None) -> dict[str, FloatArray]:
+    """Return a joint's channels by name, (n_frames,) each; without a `position`, those are zero."""
     order = _rotation_order(joint)
-    full_order = order + "".join(axis for axis in "XYZ" if axis not in order)
-    angles = rotations.continuous_degrees(np.degrees(rotations.to_euler(full_order, local)))
-    return {f"{axis}rotation": angles[:, at] for at, axis in enumerate(order)}
+    values = dict.fromkeys(joint.channels, np.zeros(turned.shape[0]))
+    if order:
+        angles_deg = np.degrees(rotations.continuous_euler(rotations.to_euler(order, turned)))
+        values |= {f"{axis}rotation": angles_deg[:, at] for at, axis in enumerate(order)}
+    if position is not None:
+        values |= {channel: position[:, at] for at, channel in enumerate(POSITION_CHANNELS)}
+    return values
 
 
 def _fold_above_travel(skeleton: Skeleton, rotation: FloatArray, position: dict[int, FloatArray]) -> None:

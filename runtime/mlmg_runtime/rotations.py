@@ -1,12 +1,10 @@
-"""Rotations as unit quaternions (w, x, y, z): active, right-handed, on column vectors; arrays end in the axis of 4.
+"""Rotations as unit quaternions (w, x, y, z): active, right-handed, on column vectors.
 
-The few operations that playing needs, in plain numpy: importing scipy's would take half the time that a
-command may take. The tests hold them against scipy.
+Arrays of quaternions end in the axis of 4. These are the few operations that playing needs, in plain numpy:
+importing scipy's would take half the time that a command may take. The tests hold them against scipy.
 """
 
 from __future__ import annotations
-
-from itertools import pairwise
 
 import numpy as np
 
@@ -17,29 +15,31 @@ AXES = {"X": 0, "Y": 1, "Z": 2}
 
 def multiply(a: FloatArray, b: FloatArray) -> FloatArray:
     """Return the rotation that first applies `b`, then `a`; shapes (..., 4), broadcast."""
-    aw, ax, ay, az = np.moveaxis(a, -1, 0)
-    bw, bx, by, bz = np.moveaxis(b, -1, 0)
-    return np.stack(
-        (
-            aw * bw - ax * bx - ay * by - az * bz,
-            aw * bx + ax * bw + ay * bz - az * by,
-            aw * by - ax * bz + ay * bw + az * bx,
-            aw * bz + ax * by - ay * bx + az * bw,
-        ),
-        axis=-1,
-    )
+    aw, ax, ay, az = a[..., 0], a[..., 1], a[..., 2], a[..., 3]
+    bw, bx, by, bz = b[..., 0], b[..., 1], b[..., 2], b[..., 3]
+    product = np.empty(np.broadcast_shapes(a.shape, b.shape))
+    product[..., 0] = aw * bw - ax * bx - ay * by - az * bz
+    product[..., 1] = aw * bx + ax * bw + ay * bz - az * by
+    product[..., 2] = aw * by - ax * bz + ay * bw + az * bx
+    product[..., 3] = aw * bz + ax * by - ay * bx + az * bw
+    return product
 
 
 def inverse(q: FloatArray) -> FloatArray:
     """Return the inverse of unit quaternions, shape (..., 4)."""
-    return q * np.array([1.0, -1.0, -1.0, -1.0])
+    return np.asarray(q * np.array([1.0, -1.0, -1.0, -1.0]))
 
 
 def rotate(q: FloatArray, v: FloatArray) -> FloatArray:
     """Return vectors `v`, shape (..., 3), turned by `q`, shape (..., 4), broadcast."""
-    w, u = q[..., :1], q[..., 1:]
-    t = 2.0 * np.cross(u, v)
-    return np.asarray(v + w * t + np.cross(u, t))
+    w, x, y, z = q[..., 0], q[..., 1], q[..., 2], q[..., 3]
+    a, b, c = v[..., 0], v[..., 1], v[..., 2]
+    # v + w t + u x t, where u is the vector part of q and t = 2 u x v; written out, for `np.cross` is slow.
+    t_a, t_b, t_c = 2.0 * (y * c - z * b), 2.0 * (z * a - x * c), 2.0 * (x * b - y * a)
+    return np.stack(
+        (a + w * t_a + y * t_c - z * t_b, b + w * t_b + z * t_a - x * t_c, c + w * t_c + x * t_b - y * t_a),
+        axis=-1,
+    )
 
 
 def about_axis(axis: str, angle_rad: FloatArray) -> FloatArray:
@@ -79,11 +79,35 @@ def matrix_from_quaternion(q: FloatArray) -> FloatArray:
 
 
 def to_euler(order: str, q: FloatArray) -> FloatArray:
-    """Return intrinsic angles in radians, shape (..., 3), with R_1 R_2 R_3 = `q`; `order` names three different axes.
+    """Return the intrinsic angles in radians, shape (..., len(order)), for which R_1 R_2 ... = `q`.
 
-    Accurate everywhere, near the singularity (middle angle +-90 degrees) too: there the split between the first
-    and the third angle is free, and the third is measured after the first has been undone.
+    `order` names one to three different axes. Three give every rotation, accurately near the singularity
+    (middle angle +-90 degrees) too; the middle angle is within +-90 degrees. Fewer give the nearest rotation
+    that they can make.
     """
+    if len(order) == 1:
+        return np.asarray(2.0 * np.arctan2(q[..., 1 + AXES[order]], q[..., 0]))[..., None]
+    if len(order) == 2:
+        return _two_angles(order, q)
+    return _three_angles(order, q)
+
+
+def _two_angles(order: str, q: FloatArray) -> FloatArray:
+    """Return the angles a, b for which R_i(a) R_j(b) comes nearest to `q`.
+
+    The inner product of the two quaternions, written with the sum and the difference of the half angles,
+    falls into two terms, each of which one of them makes as large as can be.
+    """
+    i, j = (AXES[axis] for axis in order)
+    sign = 1.0 if (j - i) % 3 == 1 else -1.0
+    w, x_i, x_j, x_k = q[..., 0], q[..., 1 + i], q[..., 1 + j], sign * q[..., 1 + 3 - i - j]
+    half_sum = np.arctan2(x_i + x_j, w - x_k)
+    half_difference = np.arctan2(x_i - x_j, w + x_k)
+    return np.stack((half_sum + half_difference, half_sum - half_difference), axis=-1)
+
+
+def _three_angles(order: str, q: FloatArray) -> FloatArray:
+    """Return all three angles; at the singularity the third is measured after the first has been undone."""
     i, j, k = (AXES[axis] for axis in order)
     sign = 1.0 if (j - i) % 3 == 1 else -1.0
     m = matrix_from_quaternion(q)
@@ -124,11 +148,21 @@ def angle_between(a: FloatArray, b: FloatArray) -> FloatArray:
     )
 
 
-def continuous_degrees(angles_deg: FloatArray) -> FloatArray:
-    """Return angles (n_frames, ...) in degrees, each moved by whole turns to lie nearest to the one before."""
-    return np.asarray(np.unwrap(angles_deg, axis=0, period=360.0))
+def continuous_euler(angles_rad: FloatArray) -> FloatArray:
+    """Return angles as of `to_euler`, shape (n_frames, 1 to 3), written so that they jump least over time.
+
+    An angle may be moved by whole turns, and of three angles a, b, c also a + pi, pi - b, c + pi make the
+    same rotation. Which of the two is nearer to the frame before does not depend on which was taken there,
+    but only on whether the frame before was changed; so that the changes add up.
+    """
+    if angles_rad.shape[-1] == 3:
+        other = np.pi + angles_rad * np.array([1.0, -1.0, 1.0])
+        changes = _turn(other[1:] - angles_rad[:-1]) < _turn(angles_rad[1:] - angles_rad[:-1])
+        changed = np.concatenate(([False], np.cumsum(changes) % 2 == 1))
+        angles_rad = np.where(changed[:, None], other, angles_rad)
+    return np.asarray(np.unwrap(angles_rad, axis=0))
 
 
-def is_rotation_order(order: str) -> bool:
-    """Return whether `order` names different axes, as the rotation channels of a joint must."""
-    return all(a != b for a, b in pairwise(sorted(order)))
+def _turn(step_rad: FloatArray) -> FloatArray:
+    """Return how far steps of angles turn altogether, without whole turns; summed over the last axis."""
+    return np.asarray(np.sum(np.abs(np.remainder(step_rad + np.pi, 2.0 * np.pi) - np.pi), axis=-1))

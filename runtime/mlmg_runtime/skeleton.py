@@ -1,4 +1,4 @@
-"""Skeletons: a tree of joints, which of them move by position channels, and where each stands in the world."""
+"""Skeletons: a tree of joints, which of them move by position channels, and where each is in the world."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ from mlmg_runtime.bvh.document import Joint
 class Skeleton:
     """A tree of joints, parents before their children.
 
-    The *travel joint* carries the body through the world: the last joint of the chain that starts at the root, as
-    long as each joint there has one child and that child has position channels. Usually it is the root; where a
-    standing root lies above the hips, it is the hips. Joints above it never move.
+    The *travel joint* carries the body through the world: the last joint of the chain that starts at the
+    root, as long as each joint there has one child and that child has position channels. Usually it is the
+    root; where a standing root lies above the hips, it is the hips. Joints above it never move.
 
     Attributes
     ----------
@@ -40,10 +40,11 @@ class Skeleton:
     @cached_property
     def children(self) -> tuple[tuple[int, ...], ...]:
         """Return the indices of each joint's children."""
-        return tuple(
-            tuple(index for index, parent in enumerate(self.parents) if parent == joint)
-            for joint in range(len(self.joints))
-        )
+        children: list[list[int]] = [[] for _ in self.joints]
+        for index, parent in enumerate(self.parents):
+            if parent >= 0:
+                children[parent].append(index)
+        return tuple(map(tuple, children))
 
     @cached_property
     def travel(self) -> int:
@@ -55,8 +56,9 @@ class Skeleton:
 
     @cached_property
     def positioned(self) -> tuple[int, ...]:
-        """Return the joints whose local position changes: the travel joint first, then others with position channels."""
-        return (self.travel, *(j for j in range(self.travel + 1, len(self.joints)) if has_positions(self.joints[j])))
+        """Return the joints whose local position changes: the travel joint, and others by channels."""
+        others = (joint for joint in self.body[1:] if has_positions(self.joints[joint]))
+        return (self.travel, *others)
 
     @cached_property
     def body(self) -> tuple[int, ...]:
@@ -79,7 +81,7 @@ class Poses:
     Attributes
     ----------
     rotations : array, shape (n_frames, n_joints, 4). Local rotations, unit quaternions (w, x, y, z).
-    positions : array, shape (n_frames, len(skeleton.positioned), 3). Local positions of the positioned joints; that of
+    positions : array, shape (n_frames, len(skeleton.positioned), 3). Local positions of those joints; that of
         the travel joint, the first, is its position in the world.
     """
 
@@ -107,10 +109,10 @@ def world_positions(skeleton: Skeleton, poses: Poses) -> FloatArray:
 
 
 def world_transforms(skeleton: Skeleton, poses: Poses) -> tuple[FloatArray, FloatArray]:
-    """Return world rotations, shape (n_frames, n_joints, 4), and world positions, shape (n_frames, n_joints, 3).
+    """Return world rotations, shape (n_frames, n_joints, 4), and positions, shape (n_frames, n_joints, 3).
 
-    Joints above the travel joint stand at the origin, unturned, whatever their offsets say: a pose holds the travel
-    joint's place in the world.
+    Joints above the travel joint stand at the origin, unturned, whatever their offsets say: a pose holds the
+    travel joint's place in the world.
     """
     n_frames, n_joints = poses.rotations.shape[:2]
     world_rotation = np.empty((n_frames, n_joints, 4))
@@ -125,5 +127,6 @@ def world_transforms(skeleton: Skeleton, poses: Poses) -> tuple[FloatArray, Floa
         parent = skeleton.parents[joint]
         offset = local.get(joint, np.asarray(skeleton.joints[joint].offset))
         world_rotation[:, joint] = rotations.multiply(world_rotation[:, parent], poses.rotations[:, joint])
-        world_position[:, joint] = world_position[:, parent] + rotations.rotate(world_rotation[:, parent], offset)
+        moved = rotations.rotate(world_rotation[:, parent], offset)
+        world_position[:, joint] = world_position[:, parent] + moved
     return world_rotation, world_position
