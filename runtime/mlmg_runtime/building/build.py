@@ -157,7 +157,9 @@ def _build_graph(
     edges = _edges(settings, motions, pairs, results)
     positions = Positions(n_frames)
     is_auto = settings.threshold.kind == "auto"
-    kept = edges.where(bridges(positions, edges, sigma) if is_auto else edges.distance <= sigma)
+    kept = edges.where(
+        bridges(positions, edges, sigma, settings.window) if is_auto else edges.distance <= sigma
+    )
     component = positions.component(kept)
     kept = kept.where(positions.inside(kept, component))
     graph = MotionGraph(
@@ -212,14 +214,12 @@ def _edges(
     counts = [len(result.candidates.i) for result in results]
     a, b = (np.repeat([pair[side] for pair in pairs], counts) for side in (0, 1))
     i, s, distance = (np.concatenate([result.candidates[field] for result in results]) for field in range(3))
-    number = np.arange(len(i))
     edges = Edges(
         src_motion=np.concatenate((a, b)),
         src_frame=np.concatenate((i, s)),
         dst_motion=np.concatenate((b, a)),
         dst_frame=np.concatenate((s, i)) + k - 1,
         distance=np.concatenate((distance, distance)),
-        candidate=np.concatenate((number, number)),
     )
     allowed = np.array([[(x, y) not in settings.forbidden for y in motions] for x in motions])
     return edges.where(allowed[edges.src_motion, edges.dst_motion])

@@ -247,19 +247,22 @@ class Performer:
     def _clips_above(self, graph: MotionGraph, deadline: int | None = None) -> Iterator[Clip]:
         """Yield the clips that the graph above will play, as far as they are motions of `graph` and in its indices.
 
-        Ends with the first segment that begins after `deadline`; without one, never.
+        Where one blend follows another, the clip between them is a single moment, of no frames. Ends with the first
+        segment that begins after `deadline`; without one, never.
         """
         parent = self.library.parent(graph.name)
         assert parent is not None
         track = self._driver(parent)
+        before: Segment | None = None
         for segment in self._stay(track, graph):
             if deadline is not None and segment.begin > deadline:
                 return
-            if isinstance(segment, Clip):
-                name = track.graph.motions[segment.first.motion]
-                if name in graph.index:
-                    first = Position(graph.index[name], segment.first.frame)
-                    yield Clip(segment.begin, segment.end, first, segment.n_source)
+            clip = segment if isinstance(segment, Clip) else Clip(segment.begin, segment.begin, segment.source, 0)
+            name = track.graph.motions[clip.first.motion]
+            if name in graph.index and not (isinstance(segment, Blend) and isinstance(before, Clip)):
+                first = Position(graph.index[name], clip.first.frame)
+                yield Clip(clip.begin, clip.end, first, clip.n_source)
+            before = segment
 
     def _allowed(self, graph: str, joining: MotionGraph | None = None) -> frozenset[int]:
         """Return the motions that a way round on `graph` may pass: those that all running parts below it are on."""
