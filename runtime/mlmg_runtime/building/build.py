@@ -281,9 +281,9 @@ def _report(
 def _lost_frames(
     graph: MotionGraph, positions: Positions, component: np.ndarray[tuple[int], np.dtype[np.bool_]]
 ) -> Iterator[tuple[str, int]]:
-    """Count the frames that no endless walk passes; the first and last k - 1 can be in none and do not count."""
+    """Count the frames that no endless walk passes; the first k and last k - 1 never can, and do not count."""
     for index, motion in enumerate(graph.motions):
         inside = component[positions.first[index] : positions.first[index + 1]]
-        n_lost = int(np.count_nonzero(~inside[graph.window - 1 : len(inside) - graph.window + 1]))
+        n_lost = int(np.count_nonzero(~inside[graph.window : len(inside) - graph.window + 1]))
         if n_lost:
             yield motion, n_lost

@@ -37,10 +37,10 @@ def find_candidates(distances: Matrix, *, within_motion: bool, window: int) -> C
     if distances.size == 0:
         nothing = np.empty(0, dtype=np.int64)
         return Candidates(nothing, nothing, np.empty(0))
-    if within_motion:
-        distances = np.where(_share_no_frame(distances.shape[0], window), distances, np.inf)
     padded = np.pad(distances, 1, constant_values=np.inf)
-    least = np.isfinite(distances)
+    least = (
+        _share_no_frame(distances.shape[0], window) if within_motion else np.ones(distances.shape, dtype=bool)
+    )
     for row in (-1, 0, 1):
         for column in (-1, 0, 1):
             if (row, column) == (0, 0):

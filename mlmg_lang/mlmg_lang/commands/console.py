@@ -1,0 +1,91 @@
+"""What all commands share: how they end, how they tell of errors, how they show progress."""
+
+from __future__ import annotations
+
+import os
+import sys
+import time
+from collections.abc import Callable
+from contextlib import suppress
+from dataclasses import dataclass, field
+from typing import TextIO
+
+DONE = 0
+WRONG_CONTENT = 1
+WRONG_USAGE = 2
+INTERRUPTED = 130
+
+
+def run_command(program: str, command: Callable[[], int]) -> int:
+    """Run a command and return its exit code; what goes wrong is told in one line on standard error.
+
+    0 done; 1 the content of a file is wrong; 2 a file cannot be opened or written; 130 interrupted.
+    """
+    from mlmg_runtime.errors import MlmgError
+
+    try:
+        code = command()
+        sys.stdout.flush()
+        return code
+    except MlmgError as error:
+        tell(f"{program}: error: {error}")
+        return WRONG_CONTENT
+    except BrokenPipeError:
+        # Whoever read our output has gone; standard output must not be flushed again at exit.
+        with suppress(OSError):
+            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return DONE
+    except OSError as error:
+        name = f"{error.filename}: " if error.filename else ""
+        tell(f"{program}: error: {name}{error.strerror or error}")
+        return WRONG_USAGE
+    except KeyboardInterrupt:
+        tell(f"{program}: interrupted")
+        return INTERRUPTED
+
+
+def tell(message: str) -> None:
+    """Say something to the person, on standard error; results alone go to standard output."""
+    print(message, file=sys.stderr)
+
+
+def utf8_streams() -> None:
+    """Make standard input, output and error speak UTF-8, whatever the locale."""
+    for stream in (sys.stdin, sys.stdout, sys.stderr):
+        if hasattr(stream, "reconfigure"):
+            stream.reconfigure(
+                encoding="utf-8", errors="surrogateescape" if stream is sys.stdin else "replace"
+            )
+
+
+@dataclass(slots=True)
+class ProgressLine:
+    """One line on a terminal that says how far long work is, and how long it will still take; elsewhere, nothing."""
+
+    stream: TextIO = field(default_factory=lambda: sys.stderr)
+    clock: Callable[[], float] = time.monotonic
+    _stage: str = ""
+    _begun: float = 0.0
+    _shown: int = 0
+
+    def __call__(self, stage: str, done: int, total: int) -> None:
+        """Show that `done` of `total` steps of a stage are done."""
+        if not self.stream.isatty():
+            return
+        now = self.clock()
+        if stage != self._stage:
+            self._stage, self._begun = stage, now
+        text = f"{stage} {done}/{total}"
+        elapsed = now - self._begun
+        if 0 < done < total and elapsed > 1.0:
+            text += f", {elapsed * (total - done) / done:.0f} s left"
+        self.stream.write("\r" + text.ljust(self._shown))
+        self._shown = len(text)
+        self.stream.flush()
+
+    def clear(self) -> None:
+        """Take the line away again."""
+        if self._shown:
+            self.stream.write("\r" + " " * self._shown + "\r")
+            self.stream.flush()
+            self._shown = 0

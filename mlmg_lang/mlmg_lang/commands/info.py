@@ -1,0 +1,168 @@
+"""Tells what is in a built library: graphs, motions, tags, transitions, and what was lost.
+
+examples:
+  mlmg info my.mlmg
+  mlmg info my.mlmg --json
+  mlmg info my.mlmg --transitions Full-Body > transitions.csv
+"""
+
+from __future__ import annotations
+
+import argparse
+import csv
+import json
+import sys
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from mlmg_lang.commands.console import DONE
+
+if TYPE_CHECKING:
+    from mlmg_runtime.library import Library
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare the command's arguments."""
+    parser.add_argument(
+        "library", metavar="L.mlmg", type=Path, nargs="?", help="a library; without it, the demo library"
+    )
+    what = parser.add_mutually_exclusive_group()
+    what.add_argument("--json", action="store_true", help="everything as JSON")
+    what.add_argument("--transitions", metavar="GRAPH", help="the transitions of a graph as CSV")
+    what.add_argument("--oms", metavar="GRAPH", help="the overall motion similarities of a graph as CSV")
+    what.add_argument("--motions", metavar="GRAPH", help="the motions of a graph, and their tags, as CSV")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Print what is asked for."""
+    library = _open(arguments.library)
+    for rows, graph in (
+        (_transitions, arguments.transitions),
+        (_oms, arguments.oms),
+        (_motions, arguments.motions),
+    ):
+        if graph is not None:
+            csv.writer(sys.stdout, lineterminator="\n").writerows(rows(library, _graph(library, graph)))
+            return DONE
+    description = _description(library)
+    if arguments.json:
+        json.dump(description, sys.stdout, ensure_ascii=False, indent=1)
+        print()
+    else:
+        print("\n".join(_lines(description)))
+    return DONE
+
+
+def _open(path: Path | None) -> Library:
+    from mlmg_runtime.library import open_library
+
+    if path is None:
+        from mlmg_runtime.demo.library import demo_library
+
+        path = demo_library()
+    return open_library(path)
+
+
+def _graph(library: Library, name: str) -> str:
+    from mlmg_runtime.errors import LibraryError
+
+    if name not in library.graphs:
+        raise LibraryError(
+            library.path, None, f"there is no graph `{name}`; there are {', '.join(library.graphs)}"
+        )
+    return name
+
+
+def _transitions(library: Library, graph: str) -> Iterator[Iterable[object]]:
+    own = library.by_name[graph]
+    yield "src_motion", "src_frame", "dst_motion", "dst_frame", "distance", "cost"
+    for edge in own.edges:
+        yield (
+            own.motions[edge.src_motion],
+            edge.src_frame,
+            own.motions[edge.dst_motion],
+            edge.dst_frame,
+            edge.distance,
+            edge.cost,
+        )
+
+
+def _oms(library: Library, graph: str) -> Iterator[Iterable[object]]:
+    own = library.by_name[graph]
+    yield "a", "b", "oms"
+    for row, a in enumerate(own.motions):
+        for column, b in enumerate(own.motions):
+            yield a, b, float(own.oms[row, column])
+
+
+def _motions(library: Library, graph: str) -> Iterator[Iterable[object]]:
+    yield "motion", "n_frames", "seconds", "tags"
+    for motion in library.motions(graph):
+        n_frames = library.n_frames(motion)
+        yield motion, n_frames, round(n_frames / library.frame_rate, 3), " ".join(library.tags(graph, motion))
+
+
+def _description(library: Library) -> dict[str, Any]:
+    clips = dict.fromkeys(motion for graph in library.graphs for motion in library.motions(graph))
+    return {
+        "library": str(library.path),
+        "bytes": library.path.stat().st_size,
+        "frame_rate": library.frame_rate,
+        "up": library.up,
+        "start": library.start,
+        "n_frames": sum(map(library.n_frames, clips)),
+        "clips": {clip: library.n_frames(clip) for clip in clips},
+        "joints": list(library.skeleton.names),
+        "warnings": list(library.warnings),
+        "graphs": [_graph_description(library, graph) for graph in library.graphs],
+    }
+
+
+def _graph_description(library: Library, graph: str) -> dict[str, Any]:
+    own = library.by_name[graph]
+    return {
+        "name": graph,
+        "parent": own.parent,
+        "joints": [library.skeleton.names[joint] for joint in own.joints],
+        "window": own.window,
+        "sigma": own.sigma,
+        "blend": own.blend,
+        "motions": {motion: list(own.tags[motion]) for motion in own.motions},
+        **library.reports[graph],
+    }
+
+
+def _lines(description: dict[str, Any]) -> Iterator[str]:
+    seconds = description["n_frames"] / description["frame_rate"]
+    yield (
+        f"{description['library']}: {len(description['clips'])} clips, {description['n_frames']} frames "
+        f"({seconds:.0f} s at {description['frame_rate']:g} fps), {len(description['joints'])} joints, "
+        f"{description['bytes'] / 1e6:.1f} MB; starts in {description['start']}"
+    )
+    for graph in description["graphs"]:
+        yield ""
+        yield from _graph_lines(graph, description)
+
+
+def _graph_lines(graph: dict[str, Any], description: dict[str, Any]) -> Iterator[str]:
+    below = f", below {graph['parent']}" if graph["parent"] else ""
+    yield (
+        f"{graph['name']}{below}: {len(graph['motions'])} motions, {graph['n_transitions']} transitions of "
+        f"{graph['n_candidates']} candidates; smooth up to {graph['threshold']:.3g} (RMS over joints)"
+    )
+    width = max(map(len, graph["motions"]))
+    for motion, tags in graph["motions"].items():
+        n_frames = description["clips"][motion]
+        lost = graph["lost_frames"].get(motion)
+        note = (
+            "  cannot be led to"
+            if motion in graph["lost_motions"]
+            else f"  {lost} frames lost"
+            if lost
+            else ""
+        )
+        yield f"  {motion:<{width}}  {n_frames / description['frame_rate']:6.1f} s  {', '.join(tags) or '-'}{note}"
+    if graph["bridges"]:
+        distances = [distance for _, _, distance in graph["bridges"]]
+        yield f"  bridged: {len(distances)} transitions above that, {min(distances):.3g} to {max(distances):.3g}"

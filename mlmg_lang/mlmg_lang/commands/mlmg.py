@@ -1,0 +1,84 @@
+"""The command `mlmg`: a name for each thing that can be done with libraries, scripts and motions."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Sequence
+from importlib import import_module
+
+from mlmg_lang.commands.console import DONE, WRONG_USAGE, run_command, utf8_streams
+from mlmg_lang.commands.version import VersionAction
+
+# Subcommand -> what it does. The module of the same name is imported when it is called.
+SUBCOMMANDS = {
+    "build": "build a library of motions from clips and a configuration",
+    "info": "tell what is in a built library",
+    "check": "check scripts without playing them",
+    "view": "look at a motion: a player in the browser, a picture, a GIF",
+}
+
+_DESCRIPTION = """\
+Motion Script commands human motion. A script is played with the command mlmgc; mlmg does the rest.
+
+commands:
+{commands}
+
+examples:
+  mlmg build library.toml -o my.mlmg
+  mlmg info my.mlmg
+  mlmg check stroll.ms --library my.mlmg
+  mlmgc stroll.ms --library my.mlmg -o stroll.bvh
+  mlmg view stroll.bvh
+
+`mlmg COMMAND --help` says more of each.
+"""
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run `mlmg` and return its exit code."""
+    utf8_streams()
+    words = list(sys.argv[1:] if arguments is None else arguments)
+    if words and words[0] in SUBCOMMANDS:
+        return _run(words[0], words[1:])
+    parser = argparse.ArgumentParser(
+        prog="mlmg",
+        usage="mlmg COMMAND ...",
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+        description=_DESCRIPTION.format(
+            commands="\n".join(f"  {n:<7} {text}" for n, text in SUBCOMMANDS.items())
+        ),
+    )
+    parser.add_argument("--version", action=VersionAction, nargs=0, help="show the version and leave")
+    parser.add_argument("command", nargs="?", help=argparse.SUPPRESS)
+    parser.add_argument("rest", nargs=argparse.REMAINDER, help=argparse.SUPPRESS)
+    parsed = parser.parse_args(words)
+    if parsed.command is None:
+        parser.print_help()
+        return DONE
+    _unknown(parsed.command)
+    return WRONG_USAGE
+
+
+def _run(name: str, words: Sequence[str]) -> int:
+    module = import_module(f"mlmg_lang.commands.{name}")
+    parser = argparse.ArgumentParser(
+        prog=f"mlmg {name}",
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+        description=module.__doc__,
+    )
+    module.add_arguments(parser)
+    parsed = parser.parse_args(words)
+    return run_command(f"mlmg {name}", lambda: int(module.run(parsed)))
+
+
+def _unknown(command: str) -> None:
+    from difflib import get_close_matches
+
+    near = get_close_matches(command, SUBCOMMANDS, n=1)
+    meant = f"did you mean `mlmg {near[0]}`?" if near else f"there are {', '.join(SUBCOMMANDS)}"
+    print(f"mlmg: error: no command `{command}`; {meant}", file=sys.stderr)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,135 @@
+"""The command `mlmgc`: compiles a script, plays it, and writes the motion."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from mlmg_lang.commands.console import (
+    DONE,
+    WRONG_CONTENT,
+    WRONG_USAGE,
+    ProgressLine,
+    run_command,
+    tell,
+    utf8_streams,
+)
+
+if TYPE_CHECKING:
+    from mlmg_lang.play import Performance
+
+_DESCRIPTION = """\
+Compiles a script of Motion Script, plays it on a library of motions, and writes the motion as BVH.
+
+examples:
+  mlmgc stroll.ms --library my.mlmg -o stroll.bvh
+  mlmgc stroll.ms -o stroll.bvh --report stroll.json    what plays when, and why
+  echo "WALK for 10 sec" | mlmgc - -o - > walk.bvh      standard input and output
+
+Without --library, MLMG_LIBRARY or a key `library` in mlmg.toml, the demo library is played.
+"""
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run `mlmgc` and return its exit code."""
+    utf8_streams()
+    parser = _parser()
+    parsed = parser.parse_args(arguments)
+    return run_command("mlmgc", lambda: _run(parser, parsed))
+
+
+def _parser() -> argparse.ArgumentParser:
+    from mlmg_lang.commands.version import VersionAction
+
+    parser = argparse.ArgumentParser(
+        prog="mlmgc", description=_DESCRIPTION, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("script", metavar="SCRIPT.ms", help="the script; - reads standard input")
+    parser.add_argument(
+        "-o",
+        "--output",
+        metavar="OUT.bvh",
+        required=True,
+        help="the motion to write; - writes standard output",
+    )
+    parser.add_argument("--library", metavar="L.mlmg", type=Path, help="the library to play on")
+    parser.add_argument("--start", metavar="MOTION", help="the motion of the whole body to start in")
+    parser.add_argument("--seed", metavar="N", type=int, default=0, help="for what is drawn by chance (0)")
+    parser.add_argument("--report", metavar="R.json", help="write what plays when; - writes standard output")
+    parser.add_argument("--fps", metavar="N", type=_rate, help="frames a second of the motion; the library's")
+    parser.add_argument(
+        "--blend", choices=("c1", "linear"), help="how transitions are weighted; as the library is configured"
+    )
+    parser.add_argument("--version", action=VersionAction, nargs=0, help="show the version and leave")
+    return parser
+
+
+def _rate(text: str) -> float:
+    rate = float(text)
+    if not 0 < rate <= 10000:
+        raise argparse.ArgumentTypeError(f"{text} is no number of frames a second")
+    return rate
+
+
+def _run(parser: argparse.ArgumentParser, arguments: argparse.Namespace) -> int:
+    if arguments.output == "-" and arguments.report == "-":
+        tell("mlmgc: error: the motion and the report cannot both go to standard output")
+        return WRONG_USAGE
+    from mlmg_lang.commands.scripts import load_library, read_script, show_diagnostics
+    from mlmg_lang.front_end import analyse
+
+    source, unreadable = read_script(arguments.script)
+    if unreadable:
+        show_diagnostics(source, unreadable)
+        return WRONG_CONTENT
+    library = load_library(arguments.script, arguments.library, ProgressLine())
+    analysis = analyse(source, library, start=arguments.start)
+    show_diagnostics(source, analysis.diagnostics)
+    if analysis.resolved is None:
+        return WRONG_CONTENT
+    if not analysis.resolved.statements:
+        tell(
+            f"mlmgc: error: {source.name}: there is nothing to play; expected a command such as `WALK for 10 sec`"
+        )
+        return WRONG_CONTENT
+    from mlmg_lang.play import play
+
+    performance = play(analysis.resolved, library, arguments.seed, arguments.fps, arguments.blend)
+    _write(performance, arguments.output, arguments.report)
+    return DONE
+
+
+def _write(performance: Performance, output: str, report: str | None) -> None:
+    from mlmg_runtime import bvh
+
+    if output == "-":
+        bvh.write_to(performance.bvh, sys.stdout)
+    else:
+        bvh.write(performance.bvh, output)
+    if report is not None:
+        _write_report(performance.report, report)
+    n_frames, seconds = (
+        performance.report["n_frames"],
+        performance.report["n_frames"] / performance.report["frame_rate"],
+    )
+    if output != "-":
+        tell(f"{output}: {n_frames} frames, {seconds:.1f} s")
+
+
+def _write_report(report: dict[str, Any], path: str) -> None:
+    from mlmg_runtime.files import atomic_output
+
+    text = json.dumps(report, ensure_ascii=False, indent=1) + "\n"
+    if path == "-":
+        sys.stdout.write(text)
+        return
+    with atomic_output(path) as temporary:
+        temporary.write_text(text, encoding="utf-8")
+
+
+if __name__ == "__main__":
+    sys.exit(main())
