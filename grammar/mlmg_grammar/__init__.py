@@ -1,1 +1,49 @@
-"""The definition of Motion Script's syntax."""
+"""The definition of Motion Script's syntax: `motion_script.lark`, and the one door to it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from importlib.resources import files
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from lark import Lark, Token, Transformer
+
+LINE = "line"
+SCRIPT = "script"
+_STARTS = (LINE, "unparsed")
+
+
+def grammar_text() -> str:
+    """Return the grammar, in the notation of lark."""
+    return files(__name__).joinpath("motion_script.lark").read_text(encoding="utf-8")
+
+
+def load(transformer: Transformer[Token, Any] | None = None, starts: Sequence[str] = _STARTS) -> Lark:
+    """Return an LALR(1) parser of the grammar, and its lexer.
+
+    Parameters
+    ----------
+    transformer : what makes a node of each rule when it is reduced; without one, lark's own trees are made.
+    starts : the rules from which a text may be parsed; `unparsed` keeps the terminals no other rule uses.
+    """
+    from lark import Lark
+
+    return Lark(grammar_text(), parser="lalr", lexer="basic", start=list(starts), transformer=transformer)
+
+
+def scan(language: Lark, text: str) -> Iterator[Token]:
+    """Yield every token of a text, comments and white space too. Whatever the text, this does not fail."""
+    return language.lex(text, dont_ignore=True)
+
+
+def reserved_words(language: Lark) -> dict[str, str]:
+    """Return the words that cannot be names, each with the terminal that it is."""
+    terminals = ((terminal.pattern.value, terminal.name) for terminal in language.terminals)
+    return {text: name for text, name in terminals if text.isalpha()}
+
+
+def is_name(text: str) -> bool:
+    """Return whether a text can be a name without quotes: Unicode's identifiers, with single `-` inside."""
+    head, *tail = text.split("-")
+    return head.isidentifier() and all(f"_{part}".isidentifier() and part for part in tail)

@@ -1,0 +1,139 @@
+"""What the compiler has to say, as data; and the table of all that it can say."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from enum import StrEnum
+from types import MappingProxyType
+from typing import Final
+
+from mlmg_lang.source import Span
+
+
+class Severity(StrEnum):
+    """How bad it is: an error keeps a script from being played, a warning or a hint does not."""
+
+    ERROR = "error"
+    WARNING = "warning"
+    HINT = "hint"
+
+
+@dataclass(frozen=True, slots=True)
+class Rule:
+    """One kind of diagnostic."""
+
+    severity: Severity
+    title: str
+
+
+def _table() -> dict[str, Rule]:
+    error, warning, hint = Severity.ERROR, Severity.WARNING, Severity.HINT
+    return {
+        # the text
+        "MS001": Rule(error, "the file is not UTF-8"),
+        "MS002": Rule(error, "a quoted name that is not closed"),
+        "MS003": Rule(error, "a character that cannot stand here"),
+        "MS004": Rule(error, "a quoted name that is empty or has an unknown escape"),
+        "MS005": Rule(error, "nested too deeply"),
+        "MS006": Rule(error, "too many mistakes"),
+        # the syntax
+        "MS010": Rule(error, "a word or sign that does not fit here"),
+        "MS011": Rule(error, "a word of the language in the wrong case"),
+        "MS012": Rule(error, "a parenthesis without its partner"),
+        "MS013": Rule(error, "a brace without its partner, or in the wrong place"),
+        "MS014": Rule(error, "`with`, `and`, `or` or `not` without a motion beside it"),
+        "MS015": Rule(error, "a definition that is not at the top level"),
+        "MS016": Rule(error, "a duration without a unit, or with an unknown one"),
+        "MS017": Rule(error, "a duration that is not one number and one unit"),
+        "MS018": Rule(error, "a word of the language used as a name"),
+        "MS019": Rule(error, "a misspelt word of the language"),
+        # the names
+        "MS020": Rule(hint, "a name that is spelt otherwise in the library"),
+        "MS021": Rule(error, "an unknown name"),
+        "MS022": Rule(error, "a motion or tag that is not on this graph"),
+        "MS023": Rule(error, "a spelling that fits several names"),
+        "MS024": Rule(error, "a graph where a motion is expected"),
+        "MS025": Rule(error, "a motion or tag where a graph is expected"),
+        "MS026": Rule(error, "an unknown graph"),
+        "MS027": Rule(error, "a parameter that does not exist"),
+        "MS028": Rule(error, "arguments for something that takes none"),
+        # the types
+        "MS030": Rule(error, "a graph that is not below the one before it"),
+        "MS031": Rule(error, "a graph that is named twice in a command"),
+        "MS032": Rule(error, "a combination that no motion has"),
+        "MS033": Rule(error, "`Sub` without a graph before it, or without one below it"),
+        "MS034": Rule(error, "layers where a set of motions is expected"),
+        "MS035": Rule(error, "different graphs in one set of motions"),
+        # the playing
+        "MS040": Rule(error, "rule 1 leaves nothing to play"),
+        "MS041": Rule(error, "nothing that can be reached"),
+        "MS042": Rule(error, "the end of the whole body"),
+        "MS043": Rule(warning, "the end of a part that does not run on its own"),
+        "MS044": Rule(error, "an unknown start motion"),
+        "MS045": Rule(warning, "a duration of nothing"),
+        "MS046": Rule(error, "an absurd duration"),
+        # the version
+        "MS060": Rule(error, "a part of the language that is not played yet"),
+    }
+
+
+CODES: Final[Mapping[str, Rule]] = MappingProxyType(_table())
+"""All codes, with their severity and what they mean in a few words. A code never changes its meaning."""
+
+
+@dataclass(frozen=True, slots=True)
+class Fix:
+    """An edit that would mend it.
+
+    Attributes
+    ----------
+    safe : whether the edit is sure to say what the script was meant to say.
+    """
+
+    span: Span
+    replacement: str
+    safe: bool
+
+    @property
+    def applicability(self) -> str:
+        """Return `safe` or `unsafe`."""
+        return "safe" if self.safe else "unsafe"
+
+
+@dataclass(frozen=True, slots=True)
+class Note:
+    """Something else that one should know, perhaps about another place."""
+
+    message: str
+    span: Span | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Diagnostic:
+    """Something that is wrong with a script, or could be better.
+
+    Attributes
+    ----------
+    code : a key of `CODES`.
+    span : where; None if it is not about a place in the text.
+    help : what to do about it.
+    fixes : edits that would do it, the likeliest first.
+    """
+
+    code: str
+    message: str
+    span: Span | None
+    help: str | None = None
+    notes: tuple[Note, ...] = ()
+    fixes: tuple[Fix, ...] = ()
+
+    @property
+    def severity(self) -> Severity:
+        """Return how bad it is."""
+        return CODES[self.code].severity
+
+
+def has_errors(diagnostics: tuple[Diagnostic, ...]) -> bool:
+    """Return whether one of them keeps the script from being played."""
+    return any(diagnostic.severity is Severity.ERROR for diagnostic in diagnostics)

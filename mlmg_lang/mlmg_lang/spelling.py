@@ -1,0 +1,55 @@
+"""Which of the known names someone may have meant."""
+
+from __future__ import annotations
+
+import unicodedata
+from collections.abc import Iterable
+
+
+def normal(name: str) -> str:
+    """Return a name in the form in which names are compared: NFC."""
+    return unicodedata.normalize("NFC", name)
+
+
+def folded(name: str) -> str:
+    """Return a name without what an inexact spelling may differ in: case, `_` and `-`."""
+    plain = unicodedata.normalize("NFC", normal(name).casefold())
+    return plain.replace("_", "").replace("-", "")
+
+
+def nearest(name: str, known: Iterable[str], limit: int = 3) -> tuple[str, ...]:
+    """Return the known names that look most like `name`, the most like first; none if none looks like it."""
+    from rapidfuzz import fuzz, process
+
+    wanted = folded(name)
+    found = process.extract(
+        wanted, list(dict.fromkeys(known)), scorer=fuzz.ratio, processor=folded, limit=limit, score_cutoff=65
+    )
+    by_letters = [choice for choice, _, _ in found]
+    return tuple(by_letters) or _same_letters(wanted, known, limit)
+
+
+def _same_letters(wanted: str, known: Iterable[str], limit: int) -> tuple[str, ...]:
+    """Return the names of the very letters of `wanted`, for short words with two of them swapped."""
+    letters = sorted(wanted)
+    return tuple(dict.fromkeys(name for name in known if sorted(folded(name)) == letters))[:limit]
+
+
+def is_slip_of(word: str, meant: str) -> bool:
+    """Return whether a word is one slip away: a letter more, less or other, or the same in another order."""
+    from rapidfuzz.distance import OSA
+
+    if word == meant:
+        return False
+    return sorted(word) == sorted(meant) or OSA.distance(word, meant, score_cutoff=1) <= 1
+
+
+def listed(names: Iterable[str], last: str = "and") -> str:
+    """Return names in backquotes as a sentence has them: `A`, `B` and `C`."""
+    return joined((f"`{name}`" for name in names), last)
+
+
+def joined(parts: Iterable[str], last: str = "and") -> str:
+    """Return parts as a sentence has them: A, B and C."""
+    *most, final = parts
+    return f"{', '.join(most)} {last} {final}" if most else final

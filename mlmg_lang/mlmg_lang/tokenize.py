@@ -1,0 +1,18 @@
+"""Text -> tokens."""
+
+from __future__ import annotations
+
+from mlmg_grammar import scan
+
+from mlmg_lang.build_syntax import motion_script
+from mlmg_lang.source import Source, Span
+from mlmg_lang.tokens import Token
+
+
+def tokenize(source: Source) -> tuple[Token, ...]:
+    """Return the tokens of a text in order, comments and line ends too. This never fails."""
+    return tuple(
+        Token(piece.type, str(piece), Span(piece.start_pos, piece.start_pos + len(piece)))
+        for piece in scan(motion_script(), source.text)
+        if piece.type != "SPACE" and piece.start_pos is not None
+    )

@@ -1,0 +1,29 @@
+"""A token: the smallest piece of a script that means something."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Final
+
+from mlmg_lang.source import Span
+
+NUMBERS: Final = frozenset({"INTEGER", "DECIMAL"})
+NAMES: Final = frozenset({"NAME", "UNIT", "STRING"})
+JOINERS: Final = frozenset({"WITH", "AND", "OR", "NOT"})
+CONTINUES: Final = frozenset({"WITH", "AND", "OR", "FOR", "ONCE"})
+"""What a line starts with if it goes on with the last one."""
+OPENS_STATEMENT: Final = frozenset({"LET", "USE", "REPEAT", "CHOOSE", "WAIT", "END"})
+
+
+@dataclass(frozen=True, slots=True)
+class Token:
+    """A piece of text and what it is.
+
+    Attributes
+    ----------
+    type : the name of a terminal of the grammar, such as `NAME` or `WITH`.
+    """
+
+    type: str
+    text: str
+    span: Span
