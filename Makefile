@@ -1,0 +1,62 @@
+# make demo    install, and play examples/tour.ms on the demo library into tour.bvh
+# make test    all tests
+# make lint    style and who may import whom;  make types: mypy;  make bench: measurements beside peers
+# make pictures  the pictures of the README
+
+PYTHON ?= python3
+VENV := .venv
+BIN := $(VENV)/bin
+
+.PHONY: demo test lint types bench pictures wheel clean
+
+demo: $(VENV)/installed
+	$(BIN)/mlmgc examples/tour.ms -o tour.bvh --report tour.json
+	@echo "look at it: $(BIN)/mlmg view tour.bvh"
+
+test: $(VENV)/test-tools
+	$(BIN)/pytest -n auto
+
+lint: $(VENV)/lint-tools
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/lint-imports
+
+types: $(VENV)/lint-tools
+	$(BIN)/mypy
+
+bench: $(VENV)/bench-tools
+	for bench in benchmarks/bench_*.py; do $(BIN)/python $$bench || exit 1; done
+
+pictures: $(VENV)/test-tools demo
+	$(BIN)/mlmg view tour.bvh --report tour.json -o docs/tour.png
+	$(BIN)/mlmg view tour.bvh --report tour.json -o docs/tour.gif
+
+# The wheel, built and tested as it is installed, not the source tree.
+wheel: $(VENV)/test-tools
+	rm -rf dist $(VENV)-wheel
+	$(BIN)/python -m build --wheel --outdir dist
+	$(PYTHON) -m venv $(VENV)-wheel
+	$(VENV)-wheel/bin/pip install --quiet "$$(ls dist/*.whl)[test]"
+	MLMG_TEST_INSTALLED=1 $(VENV)-wheel/bin/pytest -n auto
+
+clean:
+	rm -rf $(VENV) $(VENV)-wheel dist tour.bvh tour.json
+
+$(BIN)/python:
+	$(PYTHON) -m venv $(VENV)
+
+$(VENV)/installed: $(BIN)/python pyproject.toml
+	$(BIN)/pip install --quiet --editable .
+	touch $@
+
+$(VENV)/test-tools: $(VENV)/installed
+	$(BIN)/pip install --quiet --editable ".[test]"
+	touch $@
+
+$(VENV)/lint-tools: $(VENV)/installed
+	$(BIN)/pip install --quiet --editable ".[test,lint]"
+	touch $@
+
+$(VENV)/bench-tools: $(VENV)/installed
+	$(BIN)/pip install --quiet --editable ".[test,bench]"
+	touch $@
