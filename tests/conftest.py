@@ -3,6 +3,11 @@
 from pathlib import Path
 
 import pytest
+from hypothesis import settings
+
+# A machine shared with others is slow at times; how long an example takes is no part of a test.
+settings.register_profile("mlmg", deadline=None)
+settings.load_profile("mlmg")
 
 
 @pytest.fixture(scope="session")

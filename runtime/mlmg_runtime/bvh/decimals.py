@@ -24,7 +24,7 @@ def text_from_rows(rows: FloatArray, n_decimals: int) -> Iterator[bytes]:
         block = rows[first : first + n_rows]
         with np.errstate(over="ignore"):
             scaled = np.rint(block * 10.0**n_decimals)
-        if np.abs(scaled).max() < 2.0**63:
+        if np.abs(scaled).max() < 2.0**53:
             yield _text_from_integers(scaled.astype(np.int64), n_decimals)
         else:
             yield "".join(

@@ -121,11 +121,13 @@ class _Hierarchy:
 
     def _channels(self, rest: str) -> tuple[str, ...]:
         count, *words = rest.split() or [""]
+        if not re.fullmatch("[0-9]+", count):
+            raise self._lines.error("the number of channels", shown(count))
+        if count.lstrip("0") != str(len(words)).lstrip("0"):
+            raise self._lines.error(f"{count[:9]} channel names", str(len(words)))
         for word in words:
             if word.lower() not in _CHANNELS:
                 raise self._lines.error("a channel such as Xposition or Zrotation", shown(word))
-        if count != str(len(words)):
-            raise self._lines.error(f"CHANNELS {len(words)}, for {len(words)} names follow", shown(count))
         channels = tuple(_CHANNELS[word.lower()] for word in words)
         if len(set(channels)) < len(channels):
             raise self._lines.error("each channel once", shown(" ".join(channels)))

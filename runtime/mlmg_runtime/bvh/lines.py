@@ -77,7 +77,7 @@ class Lines:
 
 def shown(text: str | None) -> str:
     """Return `text` as errors quote it: short, without control characters; None is the end of the file."""
-    if text is None:
-        return "the end of the file"
+    if not text:
+        return "the end of the file" if text is None else "nothing"
     short = text if len(text) <= _SHOWN else text[: _SHOWN - 1] + "…"
     return "`" + "".join(c if c.isprintable() else "\N{REPLACEMENT CHARACTER}" for c in short) + "`"

@@ -11,8 +11,8 @@ import numpy as np
 from mlmg_runtime.arrays import FloatArray
 from mlmg_runtime.bvh.lines import Lines, shown
 
-_N_FRAMES = re.compile(r"frames\s*:?\s*(\S+)", re.IGNORECASE)
-_FRAME_TIME = re.compile(r"frame\s+time\s*:?\s*(\S+)", re.IGNORECASE)
+_N_FRAMES = re.compile(r"frames\b\s*:?\s*(.*)", re.IGNORECASE)
+_FRAME_TIME = re.compile(r"frame\s+time\b\s*:?\s*(.*)", re.IGNORECASE)
 _SOLID = re.compile(rb"\S")
 
 

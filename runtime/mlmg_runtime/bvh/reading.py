@@ -61,6 +61,6 @@ def _check_start(head: bytes, name: str) -> None:
     if text[:9].upper() == b"HIERARCHY":
         return
     line = 1 + head.count(b"\n", 0, len(head) - len(text))
-    first = shown(text.splitlines()[0].decode("latin-1")) if text else "nothing"
+    first = shown(text.splitlines()[0].decode("latin-1")) if text else "an empty file"
     found = _BINARY if b"\0" in head else first
     raise BvhError(name, line, f"expected HIERARCHY, found {found}")
