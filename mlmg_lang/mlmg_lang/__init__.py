@@ -1,1 +1,46 @@
-"""Motion Script: from the text of a script to a plan, and to the motion played by it."""
+"""Motion Script: from the text of a script to a plan, and to the motion played by it.
+
+`compile(text, library)` gives a plan and diagnostics; `play(plan, library)` the motion and its report.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from mlmg_lang.catalog import Catalog
+    from mlmg_lang.diagnostics import Diagnostic
+    from mlmg_lang.play import Performance
+    from mlmg_lang.resolved import ResolvedPlan
+    from mlmg_runtime.library import Library
+
+__all__ = ["compile", "play"]
+
+
+def compile(  # noqa: A001 - it is what compilers do
+    text: str, library: Catalog, start: str | None = None
+) -> tuple[ResolvedPlan | None, tuple[Diagnostic, ...]]:
+    """Return the plan of a script and what is to be said of it; the plan is None if there are errors.
+
+    Parameters
+    ----------
+    text : a script. library : what its names mean. start : the motion of the whole body to start in.
+    """
+    from mlmg_lang.front_end import analyse
+    from mlmg_lang.source import Source
+
+    analysis = analyse(Source(text), library, start=start)
+    return analysis.resolved, analysis.diagnostics
+
+
+def play(plan: ResolvedPlan, library: Library, seed: int = 0) -> Performance:
+    """Play a plan on the library that it was compiled against; the same inputs always give the same frames.
+
+    Raises
+    ------
+    mlmg_lang.play.ScriptError
+        If the library does not allow it.
+    """
+    from mlmg_lang.play import play as perform
+
+    return perform(plan, library, seed)
