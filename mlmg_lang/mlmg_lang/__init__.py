@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from mlmg_lang.catalog import Catalog
     from mlmg_lang.diagnostics import Diagnostic
-    from mlmg_lang.play import Performance
+    from mlmg_lang.perform import Performance
     from mlmg_lang.resolved import ResolvedPlan
     from mlmg_runtime.library import Library
 
@@ -38,9 +38,9 @@ def play(plan: ResolvedPlan, library: Library, seed: int = 0) -> Performance:
 
     Raises
     ------
-    mlmg_lang.play.ScriptError
+    mlmg_lang.perform.ScriptError
         If the library does not allow it.
     """
-    from mlmg_lang.play import play as perform
+    from mlmg_lang.perform import perform
 
     return perform(plan, library, seed)

@@ -20,7 +20,7 @@ from mlmg_lang.commands.console import (
 )
 
 if TYPE_CHECKING:
-    from mlmg_lang.play import Performance
+    from mlmg_lang.perform import Performance
 
 _DESCRIPTION = """\
 Compiles a script of Motion Script, plays it on a library of motions, and writes the motion as BVH.
@@ -96,9 +96,9 @@ def _run(parser: argparse.ArgumentParser, arguments: argparse.Namespace) -> int:
             f"mlmgc: error: {source.name}: there is nothing to play; expected a command such as `WALK for 10 sec`"
         )
         return WRONG_CONTENT
-    from mlmg_lang.play import play
+    from mlmg_lang.perform import perform
 
-    performance = play(analysis.resolved, library, arguments.seed, arguments.fps, arguments.blend)
+    performance = perform(analysis.resolved, library, arguments.seed, arguments.fps, arguments.blend)
     _write(performance, arguments.output, arguments.report)
     return DONE
 

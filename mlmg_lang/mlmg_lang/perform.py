@@ -28,7 +28,7 @@ class Performance:
     report: dict[str, Any]
 
 
-def play(
+def perform(
     plan: ResolvedPlan,
     library: Library,
     seed: int = 0,
@@ -54,7 +54,7 @@ def play(
         begin = performer.now
         is_last = statement is plan.statements[-1]
         try:
-            arrive = _perform(performer, statement, is_last)
+            arrive = _execute(performer, statement, is_last)
         except PlayError as error:
             line, _ = plan.source.position(statement.span.start)
             raise ScriptError(plan.source.name, line, str(error)) from None
@@ -81,7 +81,7 @@ def play(
     return Performance(bvh_from_poses(library.skeleton, poses, 1.0 / rate, library.up), report)
 
 
-def _perform(performer: Performer, statement: Statement, is_last: bool) -> int:
+def _execute(performer: Performer, statement: Statement, is_last: bool) -> int:
     """Perform one statement; return the frame at which all of its parts have arrived."""
     rate = performer.library.frame_rate
     match statement:
