@@ -145,7 +145,8 @@ def _foot(
     prints = start + curves.glided(in_step) @ np.diff(places, axis=0)
     pitch = _pitch(times_s, own, np.diff(places[:, 1]))
     raised, forward = _tipped(pitch)
-    air = curves.bump(in_step).sum(axis=-1)
+    # Up and down at speed: a sole that skims over the ground before it comes to rest would look like sliding.
+    air = np.sin(np.pi * in_step).sum(axis=-1)
     toe_out = np.radians(mirror_sign(side) * TOE_OUT_DEG)
     ankle = np.stack(
         (

@@ -58,8 +58,10 @@ def walk_03() -> Performance:
     raised = curves.plateau(times_s, 1.9, 3.1, 7.2, 8.4)
     phase = 2.0 * np.pi * times_s / step_s
     to_and_fro = np.sin(phase)
+    # On its way up and down the arm is bent.
+    passing = (4.0 * raised * (1.0 - raised))[:, None] * arm(flexion=16.0, abduction=-18.0, elbow=46.0)
     waving = arm(outward=16.0 * to_and_fro, elbow=12.0 * to_and_fro, thumbward=12.0 * np.sin(phase - 0.6))
-    return replace(walk, left=mixed(walk.left, _GREETING + waving, raised))
+    return replace(walk, left=mixed(walk.left, _GREETING + waving, raised) + passing)
 
 
 def walk_steps(paces: Sequence[Pace], noise: Noise) -> list[Step]:

@@ -27,6 +27,7 @@ LIFTING = arm(flexion=34.0, abduction=26.0, outward=12.0, elbow=104.0, palm=10.0
 
 PREPARATION_S = 0.62
 STROKE_S = 0.30
+SETTLE_S = 0.20
 BEAT_S = 0.46
 RETRACTION_S = 0.80
 
@@ -55,7 +56,7 @@ class Gesture:
     @property
     def end_s(self) -> float:
         """Return when the hold ends."""
-        return self.stroke_s + 0.2 + self.n_beats * BEAT_S
+        return self.stroke_s + SETTLE_S + self.n_beats * BEAT_S
 
 
 def whipped(times_s: FloatArray, key_times_s: Sequence[float], poses: Sequence[FloatArray]) -> FloatArray:
@@ -69,22 +70,38 @@ def whipped(times_s: FloatArray, key_times_s: Sequence[float], poses: Sequence[F
     return np.stack(tracks, axis=-1)
 
 
-def gesturing(times_s: FloatArray, gestures: Sequence[Gesture], home: FloatArray = HANGING) -> FloatArray:
-    """Return the angles of an arm, shape (n_frames, 9), that makes gestures and hangs where there is time."""
-    key_times, poses = [-1.0], [home]
+def gesturing(times_s: FloatArray, gestures: Sequence[Gesture], by: FloatArray | None = None) -> FloatArray:
+    """Return the angles of an arm, shape (n_frames, 9), that makes gestures and hangs where there is time.
+
+    Parameters
+    ----------
+    times_s : array, shape (n_frames,).
+    gestures : rising in time.
+    by : array, shape (9,). What the arm passes on its way from hanging and back to it, if anything.
+    """
+    keys = [(-10.0, HANGING)]
     for gesture in gestures:
-        prepare_s = gesture.stroke_s - STROKE_S
-        if prepare_s - PREPARATION_S - key_times[-1] > RETRACTION_S:
-            key_times += [key_times[-1] + RETRACTION_S, prepare_s - PREPARATION_S]
-            poses += [home, home]
-        key_times += [prepare_s, gesture.stroke_s]
-        poses += [gesture.pose + _WIND_UP, gesture.pose]
+        prepared_s = gesture.stroke_s - STROKE_S
+        if prepared_s - PREPARATION_S - keys[-1][0] > RETRACTION_S:
+            keys += _hanging(keys[-1][0], prepared_s, by)
+        keys += [(prepared_s, gesture.pose + _WIND_UP), (gesture.stroke_s, gesture.pose)]
         for beat in range(gesture.n_beats):
-            key_times += [gesture.stroke_s + 0.2 + (beat + share) * BEAT_S for share in (0.0, 0.5)]
-            poses += [gesture.pose, gesture.pose + _BEAT]
-        key_times.append(gesture.end_s)
-        poses.append(gesture.pose)
-    return whipped(times_s, [*key_times, key_times[-1] + RETRACTION_S], [*poses, home])
+            begin_s = gesture.stroke_s + SETTLE_S + beat * BEAT_S
+            keys += [(begin_s, gesture.pose), (begin_s + 0.5 * BEAT_S, gesture.pose + _BEAT)]
+        keys.append((gesture.end_s, gesture.pose))
+    keys += _hanging(keys[-1][0], keys[-1][0] + 100.0, by)
+    key_times, poses = zip(*keys, strict=True)
+    return whipped(times_s, key_times, poses)
+
+
+def _hanging(left_s: float, prepared_s: float, by: FloatArray | None) -> list[tuple[float, FloatArray]]:
+    """Return the keys of an arm that goes to hang at `left_s` and is in position again at `prepared_s`."""
+    down_s, up_s = left_s + RETRACTION_S, prepared_s - PREPARATION_S
+    if by is None:
+        return [(down_s, HANGING), (up_s, HANGING)]
+    going = (left_s + 0.4 * RETRACTION_S, by)
+    coming = (up_s + 0.5 * PREPARATION_S, by)
+    return [going, (down_s, HANGING), (up_s, HANGING), coming]
 
 
 def nods(times_s: FloatArray, gestures: Sequence[Gesture], size_deg: float = 4.0) -> FloatArray:

@@ -9,7 +9,18 @@ from mlmg_runtime.demo import curves
 from mlmg_runtime.demo.body import Performance, trunk
 from mlmg_runtime.demo.carriage import performed
 from mlmg_runtime.demo.footwork import HALT_CM, StepPlan, footwork
-from mlmg_runtime.demo.gestures import BELLY, BESIDE_HEAD, CHEST, HIGH, OFFER, OPEN, Gesture, gesturing, nods
+from mlmg_runtime.demo.gestures import (
+    BELLY,
+    BESIDE_HEAD,
+    CHEST,
+    HIGH,
+    LIFTING,
+    OFFER,
+    OPEN,
+    Gesture,
+    gesturing,
+    nods,
+)
 from mlmg_runtime.demo.noise import Noise
 from mlmg_runtime.demo.skeleton import LEFT, RIGHT
 
@@ -26,9 +37,8 @@ def talk_01() -> Performance:
         curves.plateau(times_s, 1.0, 1.6, 2.8, 3.4),
         curves.plateau(times_s, 6.5, 7.1, 8.2, 8.9),
     )
-    return _talking(
-        times_s, Noise(21), plan, left=left, right=right, glance=14.0 * look_left - 11.0 * look_right
-    )
+    glance = 14.0 * look_left - 11.0 * look_right
+    return _talking(times_s, Noise(21), plan, left=left, right=right, glance=glance)
 
 
 def talk_02() -> Performance:
@@ -43,9 +53,8 @@ def talk_02() -> Performance:
         curves.plateau(times_s, 1.2, 2.0, 4.0, 4.6),
         curves.plateau(times_s, 4.4, 5.0, 7.0, 8.0),
     )
-    return _talking(
-        times_s, Noise(22), plan, left=left, right=right, glance=10.0 * look_left - 12.0 * look_right
-    )
+    glance = 10.0 * look_left - 12.0 * look_right
+    return _talking(times_s, Noise(22), plan, left=left, right=right, glance=glance, by=LIFTING)
 
 
 def _talking(
@@ -56,6 +65,7 @@ def _talking(
     left: Sequence[Gesture],
     right: Sequence[Gesture],
     glance: FloatArray,
+    by: FloatArray | None = None,
 ) -> Performance:
     """Return what a talker does: gestures, a nod with each, and a head that goes with the words."""
     feet = footwork(times_s, plan.steps, lean=noise.drift(times_s, 0.06, 2.5))
@@ -64,5 +74,5 @@ def _talking(
     speaking = trunk(
         glance=glance + words[0], nod=nod + words[1], tilt=words[2], turn=0.3 * glance, bend=0.35 * nod
     )
-    left_arm, right_arm = (gesturing(times_s, gestures) for gestures in (left, right))
+    left_arm, right_arm = (gesturing(times_s, gestures, by) for gestures in (left, right))
     return performed(times_s, feet, noise, trunk_deg=speaking, left=left_arm, right=right_arm)
