@@ -23,7 +23,7 @@ from mlmg_runtime.point_cloud import PointCloud, point_cloud, window_distances
 from mlmg_runtime.skeleton import Poses, Skeleton, world_positions
 
 # Windows this alike, root mean square over the joints, blend without being seen; a share of the body's height.
-SMOOTH_SHARE = 0.025
+SMOOTH_SHARE = 0.02
 
 Progress = Callable[[str, int, int], None]
 
