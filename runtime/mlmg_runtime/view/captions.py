@@ -1,0 +1,142 @@
+"""What is playing when: the commands and the tracks of a run's report."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from mlmg_runtime.errors import FileError
+
+
+class ReportError(FileError):
+    """A file that is no report of a run, or the report of another one."""
+
+
+@dataclass(frozen=True, slots=True)
+class Command:
+    """A command: its text, from when it is under way, has arrived, and when the next begins; in frames."""
+
+    text: str
+    begin: int
+    arrive: int
+    end: int
+
+
+@dataclass(frozen=True, slots=True)
+class Stretch:
+    """What one graph plays in the frames [begin, end): `kind` is "clip", "transition" or "blend"."""
+
+    begin: int
+    end: int
+    text: str
+    kind: str
+
+
+@dataclass(frozen=True, slots=True)
+class Track:
+    """What one graph plays, in the order of time; where it has no stretch, the part follows its parent."""
+
+    graph: str
+    stretches: tuple[Stretch, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Story:
+    """All that a report tells about a motion.
+
+    Attributes
+    ----------
+    commands : in the order in which they were executed.
+    tracks : one a graph, the root graph first.
+    joints : the names of the joints that each graph moves, for the graphs of which the report says so.
+    """
+
+    commands: tuple[Command, ...] = ()
+    tracks: tuple[Track, ...] = ()
+    joints: tuple[tuple[str, tuple[str, ...]], ...] = ()
+
+    def command_at(self, frame: int) -> Command | None:
+        """Return the command under way: the last that has begun."""
+        begun = [command for command in self.commands if command.begin <= frame]
+        return begun[-1] if begun else None
+
+    def playing_at(self, frame: int) -> tuple[tuple[str, Stretch], ...]:
+        """Return what each graph that runs plays, the root graph first."""
+        return tuple(
+            (track.graph, stretch)
+            for track in self.tracks
+            for stretch in track.stretches
+            if stretch.begin <= frame < stretch.end
+        )
+
+
+def is_report(content: object) -> bool:
+    """Return whether a JSON document looks like the report of a run."""
+    return isinstance(content, Mapping) and {"commands", "tracks", "n_frames"} <= content.keys()
+
+
+def read_story(path: str | Path, n_frames: int) -> Story:
+    """Return what the report in a file tells about a motion of `n_frames` frames.
+
+    Raises
+    ------
+    OSError
+        If the file cannot be opened.
+    ReportError
+        If it is no report, or one of a motion of another length.
+    """
+    try:
+        content = json.loads(Path(path).read_text(encoding="utf-8"))
+    except (UnicodeDecodeError, json.JSONDecodeError) as error:
+        line = getattr(error, "lineno", None)
+        raise ReportError(path, line, f"expected the report of a run as JSON, found {error}") from error
+    if not is_report(content):
+        raise ReportError(
+            path, None, 'expected the report of a run, with "n_frames", "commands" and "tracks"'
+        )
+    if content["n_frames"] != n_frames:
+        message = f"expected the report of a motion of {n_frames} frames, found one of {content['n_frames']}"
+        raise ReportError(path, None, message)
+    try:
+        return story_from_report(content)
+    except (KeyError, TypeError, ValueError, AttributeError, IndexError) as error:
+        raise ReportError(path, None, f"the report cannot be understood: {_what_failed(error)}") from error
+
+
+def story_from_report(report: Mapping[str, Any]) -> Story:
+    """Return the story that a report tells.
+
+    An additional key "joints", {graph: [joint name, ...]}, lets the figure show which part each graph moves.
+    """
+    commands = tuple(
+        Command(str(entry["text"]), int(entry["begin"]), int(entry["arrive"]), int(entry["end"]))
+        for entry in report["commands"]
+    )
+    tracks = tuple(
+        Track(str(graph), tuple(_stretch(entry) for entry in entries))
+        for graph, entries in report["tracks"].items()
+    )
+    joints = tuple((str(graph), tuple(map(str, names))) for graph, names in report.get("joints", {}).items())
+    return Story(commands, tracks, joints)
+
+
+def _stretch(entry: Mapping[str, Any]) -> Stretch:
+    return Stretch(int(entry["begin"]), int(entry["end"]), _text(entry), str(entry["kind"]))
+
+
+def _text(entry: Mapping[str, Any]) -> str:
+    """Return what to call an entry of a track: a motion, or from where to where it leads."""
+    if entry["kind"] == "clip":
+        speed = float(entry.get("speed", 1.0))
+        return str(entry["motion"]) if abs(speed - 1.0) < 0.005 else f"{entry['motion']} ×{speed:.2g}"
+    ends = [str(entry[key][0]) for key in ("from", "to") if entry.get(key)]
+    if len(ends) == 2 and ends[0] == ends[1]:
+        return f"{ends[0]} ↺"
+    return " → ".join(ends) if ends else str(entry.get("motion", entry["kind"]))
+
+
+def _what_failed(error: Exception) -> str:
+    return f"no key {error}" if isinstance(error, KeyError) else str(error)

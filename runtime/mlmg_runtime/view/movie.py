@@ -1,0 +1,140 @@
+"""A small movie of a motion, as an animated GIF."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator
+from concurrent.futures import ThreadPoolExecutor
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from mlmg_runtime.arrays import FloatArray
+from mlmg_runtime.files import atomic_output
+from mlmg_runtime.view.drawing import draw
+from mlmg_runtime.view.lettering import Pen
+from mlmg_runtime.view.palette import ACCENTS, FAINT_TEXT, TEXT, accent
+from mlmg_runtime.view.pillow import need_pillow
+from mlmg_runtime.view.scene import Scene
+from mlmg_runtime.view.studio import Studio, camera_path, studio_for
+from mlmg_runtime.view.tints import tints_at
+
+if TYPE_CHECKING:
+    from PIL.Image import Image
+
+SIZE = (640, 480)
+RATE = 15.0
+LONGEST_S = 20.0
+_MARGIN, _LETTERS, _LINE = 16, 18, 26
+_SAMPLED_FRAMES = 9
+_COLOURS = 256
+_SWATCH = 64
+
+
+def write_gif(
+    scene: Scene,
+    path: str | Path,
+    frames: range | None = None,
+    progress: Callable[[str, int, int], None] | None = None,
+) -> range:
+    """Write a movie at real speed, 15 pictures a second, that repeats without end.
+
+    Parameters
+    ----------
+    frames : the frames to show, all by default; what is longer than 20 s is cut off.
+    progress : called with "drawing", how many pictures are done, and how many there are.
+
+    Returns
+    -------
+    range
+        The frames of the motion that are shown.
+
+    Raises
+    ------
+    PillowMissingError
+        If Pillow is not installed.
+    """
+    need_pillow()
+    from PIL.Image import Dither
+
+    wanted = frames if frames is not None else range(scene.n_frames)
+    shown = wanted[: max(round(LONGEST_S / scene.frame_time_s), 1)]
+    moments = _moments(shown, scene.frame_time_s)
+    studio = studio_for(scene, SIZE, np.arange(scene.n_frames))
+    picture = partial(_picture, scene, studio, camera_path(scene))
+    palette = _palette(picture, moments)
+    pool = ThreadPoolExecutor()
+    try:
+        pictures = pool.map(
+            lambda frame: picture(frame).quantize(palette=palette, dither=Dither.NONE), moments
+        )
+        _save(path, _told(pictures, len(moments), progress), len(moments))
+    finally:
+        pool.shutdown(cancel_futures=True)
+    return shown
+
+
+def _told(
+    pictures: Iterable[Image], n_pictures: int, progress: Callable[[str, int, int], None] | None
+) -> Iterator[Image]:
+    for done, picture in enumerate(pictures, start=1):
+        if progress:
+            progress("drawing", done, n_pictures)
+        yield picture
+
+
+def _save(path: str | Path, pictures: Iterator[Image], n_pictures: int) -> None:
+    durations_ms = _durations_ms(n_pictures)
+    first = next(pictures)
+    with atomic_output(path) as beside:
+        first.save(beside, format="GIF", save_all=True, append_images=pictures, loop=0, duration=durations_ms)
+
+
+def _moments(shown: range, frame_time_s: float) -> list[int]:
+    """Return the frames that are pictured: as many a second as the movie has, or all if there are fewer."""
+    step = max(1.0 / (RATE * frame_time_s), 1.0)
+    return [shown[int(at)] for at in np.arange(0, len(shown), step)]
+
+
+def _durations_ms(n_pictures: int) -> list[int]:
+    """Return how long each picture stays: whole hundredths of a second, as GIF wants, that add up right."""
+    ends = np.round(100.0 * np.arange(n_pictures + 1) / RATE).astype(int)
+    return [int(step) for step in 10 * np.diff(ends)]
+
+
+def _palette(picture: Callable[[int], Image], moments: list[int]) -> Image:
+    """Return a picture with the colours that moments from all over the movie need, the figure's first."""
+    from PIL.Image import new
+
+    width, height = SIZE
+    sampled = [moments[int(at)] for at in np.linspace(0, len(moments) - 1, _SAMPLED_FRAMES)]
+    sheet = new("RGB", (width, height * len(sampled) + _SWATCH))
+    for column, colour in enumerate((TEXT, FAINT_TEXT, *ACCENTS)):
+        sheet.paste(colour, (column * _SWATCH, height * len(sampled), (column + 1) * _SWATCH, sheet.height))
+    for row, frame in enumerate(sampled):
+        whole = picture(frame)
+        figure = whole.crop((width // 3, 0, 2 * width // 3, height))
+        sheet.paste(whole.resize((width // 3, height)), (0, row * height))
+        for column in (1, 2):
+            sheet.paste(figure, (column * width // 3, row * height))
+    return sheet.quantize(_COLOURS)
+
+
+def _picture(scene: Scene, studio: Studio, targets: FloatArray, frame: int) -> Image:
+    from PIL.ImageDraw import Draw
+
+    picture = draw(scene, frame, studio, targets[frame], tints_at(scene, frame))
+    pen = Pen(Draw(picture), _LETTERS)
+    time = f"{frame * scene.frame_time_s:.1f} s"
+    pen.write(SIZE[0] - _MARGIN - pen.width(time), _MARGIN, time, FAINT_TEXT)
+    playing = scene.story.playing_at(frame)
+    top = SIZE[1] - _MARGIN - _LINE * len(playing)
+    graphs = [track.graph for track in scene.story.tracks]
+    for row, (graph, stretch) in enumerate(playing):
+        end = pen.write(_MARGIN, top + row * _LINE, graph, accent(graphs.index(graph)))
+        pen.write(end + 10, top + row * _LINE, stretch.text, TEXT)
+    command = scene.story.command_at(frame)
+    if command:
+        pen.write(_MARGIN, _MARGIN, pen.cut(command.text, SIZE[0] - 8 * _MARGIN), TEXT)
+    return picture

@@ -1,0 +1,152 @@
+"""A scene: one motion made ready to be drawn, in metres, on the ground, with its captions."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mlmg_runtime.arrays import FloatArray
+from mlmg_runtime.bvh.document import Bvh
+from mlmg_runtime.clips import poses_from_bvh, skeleton_from_bvh
+from mlmg_runtime.skeleton import world_transforms
+from mlmg_runtime.view import landmarks
+from mlmg_runtime.view.anatomy import anatomy_from_points
+from mlmg_runtime.view.captions import Story
+from mlmg_runtime.view.mannequin import BODY_HEIGHT, Ball, Capsule, body_height, mannequin, skull_share
+from mlmg_runtime.view.points import Points, points_from_transforms
+
+Float32Array: TypeAlias = NDArray[np.float32]
+
+# Metres in one unit of length, the likeliest first; a plausible height tells which one a file is in.
+_UNITS_M = (1.0, 0.01, 0.0254, 0.001, 0.1, 0.3048)
+_PLAUSIBLE_M = (1.4, 2.05)
+_GROUND_QUANTILE = 0.05
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Scene:
+    """A motion to be looked at: metres, y up, the ground at y = 0.
+
+    Attributes
+    ----------
+    name : what to call it, usually the file's stem.
+    frame_time_s : seconds from one frame to the next.
+    positions : float32 array, shape (n_frames, n_points, 3), read-only. Joints, tips, heels, jaw.
+    root : the point that carries the body through the world.
+    bones : pairs of points, parent and child.
+    capsules : the body around them.
+    joint_names : of the points that are joints.
+    heading_rad : where the body mostly faces, from z towards x.
+    metres_per_unit : what one unit of the file was taken for.
+    story : the commands and the tracks of the run that made the motion.
+    """
+
+    name: str
+    frame_time_s: float
+    positions: Float32Array
+    root: int
+    bones: tuple[tuple[int, int], ...]
+    capsules: tuple[Capsule, ...]
+    joint_names: tuple[str, ...]
+    heading_rad: float
+    metres_per_unit: float
+    story: Story
+
+    @property
+    def n_frames(self) -> int:
+        """Return the number of frames."""
+        return int(self.positions.shape[0])
+
+    @property
+    def joints_of_graphs(self) -> dict[str, frozenset[int]]:
+        """Return the joints that each graph moves, where the report says so."""
+        index = {name: joint for joint, name in enumerate(self.joint_names)}
+        return {graph: frozenset(index[n] for n in names if n in index) for graph, names in self.story.joints}
+
+
+def scene_from_bvh(bvh: Bvh, name: str, *, up: str = "y", story: Story | None = None) -> Scene:
+    """Return a motion ready to be drawn.
+
+    Parameters
+    ----------
+    bvh : a file's content with at least one frame; any unit, which is told from the size of the body.
+    name : what to call it.
+    up : the vertical axis of the file, "y" or "z".
+    story : what its report tells.
+    """
+    skeleton = skeleton_from_bvh(bvh)
+    rotation, position = world_transforms(skeleton, poses_from_bvh(bvh, up))
+    points = points_from_transforms(skeleton, rotation, position)
+    anatomy = anatomy_from_points(points, skeleton.travel)
+    metres = metres_per_unit(body_height(points, anatomy))
+    points = replace(points, positions=metres * points.positions, lengths=metres * points.lengths)
+    anatomy = anatomy_from_points(points, skeleton.travel)
+    forward = landmarks.facing(points, anatomy)
+    n_tips_and_joints = len(points.parents)
+    heels: tuple[int, ...] = ()
+    jaw = None
+    if anatomy.is_human:
+        size = body_height(points, anatomy) / BODY_HEIGHT
+        chin = skull_share(points, anatomy) - 0.055 * size / max(
+            float(points.lengths[anatomy.head[-1]]), 1e-6
+        )
+        points, heels = landmarks.with_heels(points, anatomy, rotation, 0.045 * size)
+        points, jaw = landmarks.with_jaw(
+            points, anatomy, rotation, forward=forward, share=chin, depth=0.036 * size
+        )
+    capsules = mannequin(points, anatomy, heels, jaw)
+    return Scene(
+        name=name,
+        frame_time_s=bvh.frame_time_s,
+        positions=_on_the_ground(points.positions, capsules),
+        root=skeleton.travel,
+        bones=_bones(points, skeleton.travel, n_tips_and_joints),
+        capsules=capsules,
+        joint_names=skeleton.names,
+        heading_rad=landmarks.heading_rad(forward),
+        metres_per_unit=metres,
+        story=story or Story(),
+    )
+
+
+def metres_per_unit(height: float) -> float:
+    """Return what to multiply a body `height` units tall by: a common unit that makes it as tall as
+    people are.
+
+    If none does, the body is made 1.7 m tall.
+    """
+    low, high = _PLAUSIBLE_M
+    fitting = [unit for unit in _UNITS_M if low <= unit * height <= high]
+    return fitting[0] if fitting else BODY_HEIGHT / max(height, 1e-9)
+
+
+def ball_centres(positions: NDArray[np.floating], balls: list[Ball]) -> FloatArray:
+    """Return where balls are, shape (..., n_balls, 3); `positions` has shape (..., n_points, 3)."""
+    a = positions[..., [ball.a for ball in balls], :]
+    b = positions[..., [ball.b for ball in balls], :]
+    share = np.array([ball.share for ball in balls])[:, None]
+    return np.asarray(a + share * (b - a), dtype=np.float64)
+
+
+def _on_the_ground(positions: FloatArray, capsules: tuple[Capsule, ...]) -> Float32Array:
+    """Return positions moved up or down so that the body's lowest ball, bar outliers, is on y = 0."""
+    balls = [ball for capsule in capsules for ball in (capsule.first, capsule.second)]
+    radii = np.array([ball.radius for ball in balls])
+    lowest = (
+        (ball_centres(positions, balls)[..., 1] - radii).min(axis=1)
+        if balls
+        else positions[..., 1].min(axis=1)
+    )
+    moved = positions - np.array([0.0, np.quantile(lowest, _GROUND_QUANTILE), 0.0])
+    result: Float32Array = moved.astype(np.float32)
+    result.setflags(write=False)
+    return result
+
+
+def _bones(points: Points, travel: int, n_points: int) -> tuple[tuple[int, int], ...]:
+    return tuple(
+        (points.parents[point], point) for point in range(travel + 1, n_points) if points.lengths[point] > 0.0
+    )
