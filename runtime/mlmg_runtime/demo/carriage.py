@@ -16,7 +16,7 @@ from mlmg_runtime.demo.skeleton import LEFT, RIGHT, mirror_sign
 # The stride in which the arms swing as far as a `Swing` says.
 _STRIDE_CM = 68.0
 _BREATH_S = 3.9
-_CALM_DEG = 0.5
+_CALM_DEG = 0.4
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,7 +27,7 @@ class Swing:
     elbow_deg: float
 
 
-EASY_SWING = Swing(18.0, 11.0)
+EASY_SWING = Swing(18.0, 16.0)
 
 
 def performed(
@@ -87,12 +87,13 @@ def _answering_arm(times_s: FloatArray, feet: Footwork, noise: Noise, side: int,
     ahead = -mirror_sign(side) * (feet.stride - curves.blurred(feet.stride, 1.2)) / _STRIDE_CM
     share = curves.blurred(ahead, 0.2) * (1.0 + noise.drift(times_s, 0.07, 5.0))
     elbow_share = curves.delayed(share, 0.06)
-    wandering = noise.drifts(times_s, 1.0, 4.0, len(ARM)) * np.sign(np.abs(HANGING))
+    away, elbow_away = (np.hypot(part, 0.2) - 0.2 for part in (share, elbow_share))
+    wandering = noise.drifts(times_s, 2.0 * _CALM_DEG, 4.0, len(ARM)) * np.sign(np.abs(HANGING))
     return wandering + arm(
-        flexion=swing.shoulder_deg * share + 4.0 * np.abs(share),
-        abduction=1.5 * np.abs(share),
-        outward=-6.0 * np.maximum(share, 0.0),
+        flexion=swing.shoulder_deg * share + 4.0 * away,
+        abduction=1.5 * away,
+        outward=-3.0 * (share + away),
         shrug=0.8 * breath(times_s),
-        elbow=swing.elbow_deg * (elbow_share + 0.4 * np.abs(elbow_share)),
+        elbow=swing.elbow_deg * (0.6 * elbow_share + 0.5 * elbow_away),
         thumbward=4.0 * elbow_share,
     )

@@ -38,13 +38,13 @@ _LAST_BEAT = len(_MOVES) - 1
 _FIRST_BEATS_OF_ROCKS = (4, 12)
 
 _LOW = arm(flexion=12.0, abduction=16.0, outward=-12.0, elbow=78.0, palm=15.0, curl=52.0)
-_UP = arm(flexion=26.0, abduction=112.0, outward=58.0, elbow=66.0, palm=0.0, curl=40.0)
+_UP = arm(flexion=22.0, abduction=112.0, outward=42.0, elbow=66.0, palm=0.0, curl=40.0)
 
 
 def music_01() -> Performance:
     """Return the dance: from side to side, in turn with rocking steps forward in which the arms go up."""
     noise = Noise(41)
-    times_s = curves.frame_times(446)
+    times_s = curves.frame_times(440)
     beat = (times_s - _FIRST_BEAT_S) / BEAT_S
     dancing = curves.plateau(beat, -2.0, 0.0, _LAST_BEAT - 1.0, _LAST_BEAT + 1.0)
     left, right = (_arm_keys(beat) + dancing[:, None] * _pumping(beat, side) for side in (LEFT, RIGHT))

@@ -47,7 +47,7 @@ def walk_01() -> Performance:
 def walk_02() -> Performance:
     """Return a brisk walk, 1.5 m/s between an easy start and an easy end, with bent arms."""
     paces = [*_GOING, _EASY, Pace(12, 72.0, 0.48), _EASY, *_HALTING]
-    return _walk(358, Noise(12), paces, Swing(22.0, 24.0))
+    return _walk(358, Noise(12), paces, Swing(22.0, 30.0))
 
 
 def walk_03() -> Performance:

@@ -19,8 +19,8 @@ BELLY = arm(flexion=16.0, abduction=12.0, outward=-28.0, elbow=76.0, palm=40.0, 
 OFFER = arm(flexion=30.0, abduction=10.0, outward=0.0, elbow=66.0, palm=-45.0, wrist=-8.0, curl=18.0)
 OPEN = arm(flexion=14.0, abduction=20.0, outward=24.0, elbow=66.0, palm=-40.0, wrist=-10.0, curl=14.0)
 CHEST = arm(flexion=34.0, abduction=20.0, outward=-52.0, elbow=108.0, palm=30.0, wrist=6.0, curl=20.0)
-BESIDE_HEAD = arm(flexion=12.0, abduction=84.0, outward=76.0, elbow=112.0, palm=0.0, wrist=-6.0, curl=16.0)
-HIGH = arm(flexion=22.0, abduction=122.0, outward=56.0, elbow=52.0, palm=-6.0, wrist=-8.0, curl=12.0)
+BESIDE_HEAD = arm(flexion=12.0, abduction=84.0, outward=68.0, elbow=112.0, palm=0.0, wrist=-6.0, curl=16.0)
+HIGH = arm(flexion=22.0, abduction=122.0, outward=46.0, elbow=52.0, palm=-6.0, wrist=-8.0, curl=12.0)
 
 # On the way up to these, the bent arm passes before the shoulder.
 LIFTING = arm(flexion=34.0, abduction=26.0, outward=12.0, elbow=104.0, palm=10.0, curl=22.0)

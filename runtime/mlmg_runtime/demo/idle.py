@@ -17,19 +17,19 @@ from mlmg_runtime.demo.skeleton import LEFT, RIGHT
 def idle_01() -> Performance:
     """Return standing: the weight goes from leg to leg, one foot forward and the other after it."""
     noise = Noise(1)
-    times_s = curves.frame_times(330)
+    times_s = curves.frame_times(310)
     plan = StepPlan()
     plan.shift(LEFT, 4.4, 4.85, (0.0, HALT_CM))
-    plan.shift(RIGHT, 7.9, 8.4, (0.0, HALT_CM))
+    plan.shift(RIGHT, 8.7, 9.2, (0.0, HALT_CM))
     lean_left, lean_right = (
         curves.plateau(times_s, 1.2, 2.2, 3.2, 4.2),
-        curves.plateau(times_s, 6.0, 6.9, 7.3, 7.9),
+        curves.plateau(times_s, 6.4, 7.3, 7.8, 8.5),
     )
     lean = 0.3 * lean_left - 0.2 * lean_right + noise.drift(times_s, 0.02, 2.5)
     feet = footwork(times_s, plan.steps, lean=lean)
     look_left, look_right = (
         curves.plateau(times_s, 1.9, 2.5, 3.7, 4.4),
-        curves.plateau(times_s, 6.5, 7.2, 8.2, 9.0),
+        curves.plateau(times_s, 7.0, 7.7, 8.8, 9.5),
     )
     glance = 30.0 * look_left - 28.0 * look_right
     looking = trunk(glance=glance, turn=0.15 * curves.delayed(glance, 0.1), nod=0.06 * np.abs(glance))

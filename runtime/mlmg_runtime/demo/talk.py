@@ -27,15 +27,20 @@ from mlmg_runtime.demo.skeleton import LEFT, RIGHT
 
 def talk_01() -> Performance:
     """Return talking with small gestures: the right hand, both, the left, both; in between the hands hang."""
-    times_s = curves.frame_times(334)
+    times_s = curves.frame_times(360)
     plan = StepPlan()
-    plan.shift(LEFT, 5.2, 5.65, (0.0, HALT_CM))
-    plan.shift(RIGHT, 9.0, 9.45, (0.0, HALT_CM))
-    left = [Gesture(4.2, OFFER, 1), Gesture(7.9, CHEST, 1), Gesture(9.2, OPEN, 0)]
-    right = [Gesture(1.8, BELLY, 1), Gesture(3.0, OFFER, 0), Gesture(4.25, OFFER, 1), Gesture(9.25, OFFER, 0)]
+    plan.shift(LEFT, 6.2, 6.65, (0.0, HALT_CM))
+    plan.shift(RIGHT, 10.0, 10.45, (0.0, HALT_CM))
+    left = [Gesture(5.2, OFFER, 1), Gesture(8.9, CHEST, 1), Gesture(10.1, OPEN, 0)]
+    right = [
+        Gesture(1.7, BELLY, 1),
+        Gesture(2.9, OFFER, 0),
+        Gesture(5.25, OFFER, 1),
+        Gesture(10.15, OFFER, 0),
+    ]
     look_right, look_left = (
-        curves.plateau(times_s, 1.0, 1.6, 2.8, 3.4),
-        curves.plateau(times_s, 6.5, 7.1, 8.2, 8.9),
+        curves.plateau(times_s, 1.0, 1.6, 3.0, 3.6),
+        curves.plateau(times_s, 7.4, 8.0, 9.2, 9.9),
     )
     glance = 14.0 * look_left - 11.0 * look_right
     return _talking(times_s, Noise(21), plan, left=left, right=right, glance=glance)
