@@ -5,9 +5,9 @@ from __future__ import annotations
 import unicodedata
 from collections.abc import Iterable, Iterator
 
-from mlmg_grammar import is_name
+from mlmg_grammar import is_name, reserved_words
 
-from mlmg_lang.build_syntax import bad_escapes
+from mlmg_lang.build_syntax import bad_escapes, motion_script
 from mlmg_lang.diagnostics import Diagnostic, Fix
 from mlmg_lang.spelling import listed
 from mlmg_lang.tokens import Token
@@ -76,3 +76,11 @@ def _odd_name(token: Token) -> Diagnostic:
 
 def _shown(letter: str) -> str:
     return letter if letter.isprintable() else f"U+{ord(letter[0]):04X}"
+
+
+def script_name(name: str) -> str:
+    """Return a name as a script has to write it: in quotes if it could be taken for something else."""
+    if is_name(name) and name not in reserved_words(motion_script()):
+        return name
+    escaped = name.replace("\\", "\\\\").replace('"', '\\"')
+    return f'"{escaped}"'

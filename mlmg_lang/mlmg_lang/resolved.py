@@ -9,17 +9,34 @@ from mlmg_lang.source import Source, Span
 
 
 @dataclass(frozen=True, slots=True)
+class LeftOut:
+    """A motion that a command finds, but cannot take.
+
+    Attributes
+    ----------
+    reason : `rule 1`, `unreachable` or `later command`.
+    because : the same in words, with the graph or line that it is about.
+    """
+
+    motion: str
+    reason: str
+    because: str
+
+
+@dataclass(frozen=True, slots=True)
 class Layer:
     """The motions that a command allows on one graph.
 
     Attributes
     ----------
     candidates : in configuration order; each allowed by rule 1 for some candidate of the layer above.
+    left_out : the others that the command's words stand for.
     """
 
     graph: str
     candidates: tuple[str, ...]
     span: Span
+    left_out: tuple[LeftOut, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

@@ -14,7 +14,7 @@ def normal(name: str) -> str:
 def folded(name: str) -> str:
     """Return a name without what an inexact spelling may differ in: case, `_` and `-`."""
     plain = unicodedata.normalize("NFC", normal(name).casefold())
-    return plain.replace("_", "").replace("-", "")
+    return plain.replace("_", "").replace("-", "") or plain
 
 
 def nearest(name: str, known: Iterable[str], limit: int = 3) -> tuple[str, ...]:

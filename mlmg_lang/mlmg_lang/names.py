@@ -1,0 +1,165 @@
+"""Which graphs, motions and tags a library has, and which of them a written name means."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from enum import StrEnum
+
+from mlmg_lang.catalog import Catalog
+from mlmg_lang.spelling import folded, normal
+
+
+class Kind(StrEnum):
+    """What a name in a library stands for."""
+
+    MOTION = "motion"
+    TAG = "tag"
+
+
+@dataclass(frozen=True, slots=True)
+class Entry:
+    """A name on a graph.
+
+    Attributes
+    ----------
+    name : the library's own spelling.
+    motions : the motion itself, or those that have the tag, in configuration order.
+    """
+
+    name: str
+    kind: Kind
+    motions: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Match:
+    """What a written name means on a graph.
+
+    Attributes
+    ----------
+    others : entries that the spelling fits as well; none if it is exact.
+    """
+
+    entry: Entry
+    exact: bool
+    others: tuple[Entry, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class _Graph:
+    """The names on one graph, by their exact and by their folded spelling."""
+
+    motions: tuple[str, ...]
+    motion_set: frozenset[str]
+    exact: Mapping[str, Entry]
+    inexact: Mapping[str, tuple[Entry, ...]]
+
+
+class Names:
+    """An index of a library's names. Nothing in it changes after it is made."""
+
+    def __init__(self, catalog: Catalog) -> None:
+        """Read all names of a library."""
+        self.graphs = tuple(catalog.graphs)
+        self.root = self.graphs[0]
+        self._parent = {graph: catalog.parent(graph) for graph in self.graphs}
+        self._order = {graph: at for at, graph in enumerate(self.graphs)}
+        self._names = {graph: _index(catalog, graph) for graph in self.graphs}
+        self._graphs_exact = {normal(graph): graph for graph in self.graphs}
+        self._graphs_inexact = {folded(graph): graph for graph in reversed(self.graphs)}
+        self._anywhere = frozenset(name for index in self._names.values() for name in index.exact)
+
+    # --- the tree of graphs ---
+
+    def parent(self, graph: str) -> str | None:
+        """Return the graph above, or None for the root."""
+        return self._parent[graph]
+
+    def children(self, graph: str) -> tuple[str, ...]:
+        """Return the graphs right below one, in configuration order."""
+        return tuple(child for child in self.graphs if self._parent[child] == graph)
+
+    def ancestors(self, graph: str) -> tuple[str, ...]:
+        """Return the graphs above one, nearest first."""
+        found = []
+        above = self._parent[graph]
+        while above is not None:
+            found.append(above)
+            above = self._parent[above]
+        return tuple(found)
+
+    def below(self, tops: Iterable[str]) -> tuple[str, ...]:
+        """Return the graphs below some, nearest first, those of a level in configuration order."""
+        found: list[str] = []
+        level = tuple(tops)
+        while level:
+            children = {child for graph in level for child in self.children(graph)}
+            level = tuple(graph for graph in self.graphs if graph in children)
+            found += [graph for graph in level if graph not in found]
+        return tuple(found)
+
+    def all_levels(self) -> tuple[str, ...]:
+        """Return all graphs, the root first, then level by level."""
+        return (self.root, *self.below((self.root,)))
+
+    def height(self, graph: str) -> tuple[int, int]:
+        """Return what sorts graphs from the highest to the lowest, ties in configuration order."""
+        return len(self.ancestors(graph)), self._order[graph]
+
+    # --- what names mean ---
+
+    def motions(self, graph: str) -> tuple[str, ...]:
+        """Return the motions on a graph."""
+        return self._names[graph].motions
+
+    def motion_set(self, graph: str) -> frozenset[str]:
+        """Return the motions on a graph, to ask whether one is among them."""
+        return self._names[graph].motion_set
+
+    def graph(self, written: str) -> str | None:
+        """Return the graph that a written name means, or None."""
+        return self._graphs_exact.get(normal(written)) or self._graphs_inexact.get(folded(written))
+
+    def find(self, graph: str, written: str, exactly: bool = False) -> Match | None:
+        """Return what a written name means on one graph, or None."""
+        index = self._names[graph]
+        entry = index.exact.get(normal(written))
+        if entry is not None:
+            return Match(entry, exact=True)
+        entries = () if exactly else index.inexact.get(folded(written), ())
+        alike = tuple(other for other in entries if other.kind is entries[0].kind)
+        return Match(alike[0], exact=False, others=alike[1:]) if alike else None
+
+    def find_unqualified(self, graph: str, written: str) -> Match | None:
+        """Return what a name without a graph means on one: inexactly spelt only if no name is spelt so."""
+        return self.find(graph, written, exactly=normal(written) in self._anywhere)
+
+    def places(self, written: str) -> tuple[str, ...]:
+        """Return the graphs on which a written name means something."""
+        return tuple(graph for graph in self.graphs if self.find_unqualified(graph, written) is not None)
+
+    def spellings_on(self, graph: str) -> tuple[str, ...]:
+        """Return the tags on a graph, then its motions."""
+        entries = self._names[graph].exact.values()
+        return tuple(entry.name for entry in sorted(entries, key=lambda entry: entry.kind is Kind.MOTION))
+
+    def spellings(self) -> tuple[str, ...]:
+        """Return every motion and tag, once."""
+        return tuple(dict.fromkeys(name for graph in self.graphs for name in self.spellings_on(graph)))
+
+
+def _index(catalog: Catalog, graph: str) -> _Graph:
+    motions = tuple(catalog.motions(graph))
+    tagged: dict[str, list[str]] = {}
+    for motion in motions:
+        for tag in catalog.tags(graph, motion):
+            tagged.setdefault(tag, []).append(motion)
+    entries = [Entry(motion, Kind.MOTION, (motion,)) for motion in motions]
+    entries += [Entry(tag, Kind.TAG, tuple(having)) for tag, having in tagged.items()]
+    inexact: dict[str, tuple[Entry, ...]] = {}
+    for entry in entries:
+        key = folded(entry.name)
+        inexact[key] = (*inexact.get(key, ()), entry)
+    exact = {normal(entry.name): entry for entry in reversed(entries)}
+    return _Graph(motions, frozenset(motions), dict(reversed(exact.items())), inexact)
