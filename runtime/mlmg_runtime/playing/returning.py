@@ -5,12 +5,21 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from math import ceil, floor
+from typing import NamedTuple
 
 from mlmg_runtime.motion_graph import MotionGraph, Position, Transition
 from mlmg_runtime.playing.timeline import Clip, Segment, play_transition
 
 # A clip may be played this much faster or slower to meet the graph above.
 LARGEST_BEND = 0.2
+
+
+class _Landing(NamedTuple):
+    """When a path can have ended: with its clips played fastest, at their own speed, and slowest."""
+
+    earliest: int
+    unbent: int
+    latest: int
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,10 +56,8 @@ def find_return(
     deadline : the latest output frame at which the two may meet.
     """
     best: _Meeting | None = None
-    for way, earliest, latest in _ways(graph, position, time, deadline):
-        for meeting in _meetings(
-            graph, way, way[-1].arrival if way else position, earliest, latest, above, deadline
-        ):
+    for way, lands in _ways(graph, position, time, deadline):
+        for meeting in _meetings(graph, way, way[-1].arrival if way else position, lands, above, deadline):
             if best is None or meeting.key < best.key:
                 best = meeting
     return None if best is None else _segments(graph, position, time, best)
@@ -58,43 +65,48 @@ def find_return(
 
 def _ways(
     graph: MotionGraph, position: Position, time: int, deadline: int
-) -> Iterator[tuple[tuple[Transition, ...], int, int]]:
-    """Yield paths of any number of transitions, with the earliest and the latest time at which each can have ended."""
-    pending: list[tuple[tuple[Transition, ...], Position, int, int]] = [((), position, time, time)]
+) -> Iterator[tuple[tuple[Transition, ...], _Landing]]:
+    """Yield paths of any number of transitions, with the times at which each can have ended."""
+    pending: list[tuple[tuple[Transition, ...], Position, _Landing]] = [
+        ((), position, _Landing(time, time, time))
+    ]
     while pending:
-        way, at, earliest, latest = pending.pop()
-        yield way, earliest, latest
+        way, at, lands = pending.pop()
+        yield way, lands
         for edge in graph.edges[graph.first_edge[at.motion] : graph.first_edge[at.motion + 1]]:
             n_source = edge.src_frame - at.frame
             if n_source < 0:
                 continue
-            soonest = earliest + _fewest(n_source) + graph.window
-            if soonest > deadline:
+            after = _Landing(
+                lands.earliest + _fewest(n_source) + graph.window,
+                lands.unbent + n_source + graph.window,
+                lands.latest + _most(n_source) + graph.window,
+            )
+            if after.earliest > deadline:
                 break
-            pending.append(((*way, edge), edge.arrival, soonest, latest + _most(n_source) + graph.window))
+            pending.append(((*way, edge), edge.arrival, after))
 
 
 def _meetings(
     graph: MotionGraph,
     way: tuple[Transition, ...],
     landing: Position,
-    earliest: int,
-    latest: int,
+    lands: _Landing,
     above: Sequence[Clip],
     deadline: int,
 ) -> Iterator[_Meeting]:
-    """Yield where a clip entered at `landing`, at any time from `earliest` to `latest`, can meet the graph above."""
+    """Yield where a clip entered at `landing`, at any of the times of `lands`, can meet the graph above."""
     for clip in above:
         if clip.first.motion != landing.motion:
             continue
-        for landed in range(earliest, min(latest, clip.end, deadline) + 1):
+        for landed in range(lands.earliest, min(lands.latest, clip.end, deadline) + 1):
             ahead = clip.first.frame + landed - clip.begin - landing.frame
             n_output = max(ceil(abs(ahead) / LARGEST_BEND - 1e-9), clip.begin - landed)
             meets = landed + n_output
             within_clip = landing.frame + n_output + ahead < graph.n_frames[landing.motion]
             if meets <= min(clip.end, deadline) and within_clip:
-                natural = landed - earliest
-                yield _Meeting(way, landed, n_output, n_output + ahead, abs(natural) + abs(ahead))
+                bend = abs(landed - lands.unbent) + abs(ahead)
+                yield _Meeting(way, landed, n_output, n_output + ahead, bend)
 
 
 def _fewest(n_source: int) -> int:
