@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import errno
 import os
-import secrets
-import shutil
 import stat
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -31,7 +29,7 @@ def atomic_output(path: str | Path) -> Iterator[Path]:
         return
     target = Path(os.path.realpath(path))
     _check_writable(target, path)
-    beside = target.with_name(f".{secrets.token_hex(8)}.tmp")
+    beside = target.with_name(f".{os.urandom(8).hex()}.tmp")
     try:
         # Made by `open`, not by `tempfile`, so that it gets the permissions of any new file.
         os.close(os.open(beside, os.O_CREAT | os.O_EXCL | os.O_WRONLY, 0o666))
@@ -40,7 +38,7 @@ def atomic_output(path: str | Path) -> Iterator[Path]:
     try:
         yield beside
         if target.exists():
-            shutil.copymode(target, beside)
+            beside.chmod(stat.S_IMODE(target.stat().st_mode))
         os.replace(beside, target)
     except BaseException:
         beside.unlink(missing_ok=True)

@@ -82,6 +82,7 @@ def test_values_are_the_nearest_doubles(changed: Changed) -> None:
         ("5 6 7 8 9\n", "5 6 7 8 9 ", "19: expected 9 values, one for each channel, found 18"),
         ("8 9\n", "8 9\n\n\n1\n", "22: expected 9 values, one for each channel, found 1"),
         ("18 19\n", "18", "20: expected 9 values, one for each channel, found 8"),
+        ("18 19\n", "18 19 # end\n", "20: expected a finite number, found `#`"),
         ("18 19\n", "18 -", "20: expected a finite number, found `-`"),
         ("18 19\n", "18 19\nThe end", "21: expected a finite number, found `The`"),
         ("15 16", "15 nan", "20: expected a finite number, found `nan`"),

@@ -75,7 +75,7 @@ def test_a_file_that_is_not_there_is_the_systems_own_error(tmp_path: Path) -> No
 def test_a_pipe_can_be_read(text: str, tmp_path: Path) -> None:
     pipe = tmp_path / "pipe"
     os.mkfifo(pipe)
-    writer = threading.Thread(target=pipe.write_text, args=(text,))
+    writer = threading.Thread(target=pipe.write_text, args=(text,), daemon=True)
     writer.start()
     assert bvh.read(pipe).frames.shape == (2, 9)
     writer.join()
