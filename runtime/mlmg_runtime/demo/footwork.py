@@ -19,15 +19,24 @@ import numpy as np
 
 from mlmg_runtime.arrays import FloatArray
 from mlmg_runtime.demo import curves
-from mlmg_runtime.demo.skeleton import BALL_OFFSET_CM, HEEL_OFFSET_CM, LEFT, RIGHT, mirror_sign
+from mlmg_runtime.demo.skeleton import (
+    ANKLE_HEIGHT_CM,
+    BALL_OFFSET_CM,
+    HEEL_OFFSET_CM,
+    LEFT,
+    RIGHT,
+    mirror_sign,
+)
 
-HIP_WIDTH_CM = 8.5
+# How far each foot stands to its side in the neutral stance, and how far its toes point outward.
+HALF_STANCE_CM = 8.5
 TOE_OUT_DEG = 7.0
-# A step as long as this is made with the full roll of the foot.
+# A foot that is carried as far as this in a step rolls in full: from the heel and to the toes.
 LONG_STEP_CM = 130.0
-# How far the halting foot comes to stand before the other: the stance in which a walk ends.
+# How far the left foot stands before the right in the stance in which a walk ends.
 HALT_CM = 16.0
 
+# sqrt(g / height of the body's middle).
 _PENDULUM_PER_S = 3.2
 _HEEL_RISE_S = 0.24
 _FOOT_FLAT_S = 0.10
@@ -57,7 +66,7 @@ class StepPlan:
 
     steps: list[Step] = field(default_factory=list)
     places: list[tuple[float, float]] = field(
-        default_factory=lambda: [(mirror_sign(side) * HIP_WIDTH_CM, 0.0) for side in (LEFT, RIGHT)]
+        default_factory=lambda: [(mirror_sign(side) * HALF_STANCE_CM, 0.0) for side in (LEFT, RIGHT)]
     )
 
     def step(self, foot: int, lift_s: float, land_s: float, place: tuple[float, float]) -> None:
@@ -137,7 +146,7 @@ def _foot(
 ) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
     """Return one foot's prints (n, 2), pitch (n,), ankle (n, 3), and bend of the toes (n,)."""
     own = [step for step in steps if step.foot == side]
-    start = np.array([mirror_sign(side) * HIP_WIDTH_CM, 0.0])
+    start = np.array([mirror_sign(side) * HALF_STANCE_CM, 0.0])
     places = np.array([start, *(step.place for step in own)])
     lift = np.array([step.lift_s for step in own])
     land = np.array([step.land_s for step in own])
@@ -151,7 +160,7 @@ def _foot(
     ankle = np.stack(
         (
             prints[:, 0] + np.sin(toe_out) * forward,
-            -HEEL_OFFSET_CM[1] + raised + clearance_cm * air,
+            ANKLE_HEIGHT_CM + raised + clearance_cm * air,
             prints[:, 1] + np.cos(toe_out) * forward,
         ),
         axis=-1,

@@ -13,7 +13,7 @@ import numpy as np
 from mlmg_runtime.demo import curves
 from mlmg_runtime.demo.body import Performance, arm, mixed
 from mlmg_runtime.demo.carriage import EASY_SWING, Swing, performed
-from mlmg_runtime.demo.footwork import HALT_CM, HIP_WIDTH_CM, Step, StepPlan, footwork
+from mlmg_runtime.demo.footwork import HALF_STANCE_CM, HALT_CM, Step, StepPlan, footwork
 from mlmg_runtime.demo.noise import Noise
 from mlmg_runtime.demo.skeleton import LEFT, RIGHT, mirror_sign
 
@@ -71,7 +71,7 @@ def walk_steps(paces: Sequence[Pace], noise: Noise) -> list[Step]:
     length[:-1] += noise.jitter(1.0, len(length) - 1)
     step_s *= 1.0 + noise.jitter(0.01, len(length))
     half_width = _HALF_WIDTH_CM + noise.jitter(0.4, len(length))
-    half_width[-2:] = HIP_WIDTH_CM
+    half_width[-2:] = HALF_STANCE_CM
     lift_s = _FIRST_LIFT_S + np.concatenate(([0.0], np.cumsum(step_s)[:-1]))
     land_s = lift_s + (1.0 - _DOUBLE_SUPPORT) * step_s
     plan = StepPlan()

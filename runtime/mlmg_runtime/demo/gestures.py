@@ -45,7 +45,7 @@ _LAG_S = dict.fromkeys(ARM, 0.0) | {
 }
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Gesture:
     """A pose that an arm strikes at `stroke_s`, holds for some beats, and leaves for the next or to hang."""
 

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 from mlmg_runtime.demo import curves
-from mlmg_runtime.demo.footwork import HIP_WIDTH_CM, Footwork, Step, StepPlan, footwork
+from mlmg_runtime.demo.footwork import HALF_STANCE_CM, Footwork, Step, StepPlan, footwork
 from mlmg_runtime.demo.skeleton import ANKLE_HEIGHT_CM, LEFT, RIGHT
 
 TIMES = curves.frame_times(240)
@@ -11,7 +11,7 @@ TIMES = curves.frame_times(240)
 def stroll() -> Footwork:
     plan = StepPlan()
     plan.shift(RIGHT, 2.0, 2.4, (0.0, 50.0))
-    plan.step(LEFT, 2.5, 2.95, (HIP_WIDTH_CM, 50.0))
+    plan.step(LEFT, 2.5, 2.95, (HALF_STANCE_CM, 50.0))
     return footwork(TIMES, plan.steps)
 
 
@@ -19,8 +19,8 @@ def test_a_plan_knows_where_the_feet_stand() -> None:
     plan = StepPlan()
     plan.shift(LEFT, 1.0, 1.4, (2.0, 16.0))
     plan.shift(LEFT, 2.0, 2.4, (0.0, -6.0))
-    assert plan.steps[1] == Step(LEFT, 2.0, 2.4, (HIP_WIDTH_CM + 2.0, 10.0))
-    assert plan.places == [(HIP_WIDTH_CM + 2.0, 10.0), (-HIP_WIDTH_CM, 0.0)]
+    assert plan.steps[1] == Step(LEFT, 2.0, 2.4, (HALF_STANCE_CM + 2.0, 10.0))
+    assert plan.places == [(HALF_STANCE_CM + 2.0, 10.0), (-HALF_STANCE_CM, 0.0)]
 
 
 def test_without_steps_nothing_moves() -> None:
@@ -35,7 +35,7 @@ def test_a_foot_moves_over_the_ground_only_in_its_step(stroll: Footwork) -> None
     moved = np.abs(np.diff(stroll.prints, axis=0)).max(axis=-1) > 0.0
     in_step = [(TIMES[1:] > lift) & (TIMES[:-1] < land) for lift, land in ((2.5, 2.95), (2.0, 2.4))]
     assert not np.any(moved & ~np.stack(in_step, axis=-1))
-    np.testing.assert_allclose(stroll.prints[-1], [[HIP_WIDTH_CM, 50.0], [-HIP_WIDTH_CM, 50.0]])
+    np.testing.assert_allclose(stroll.prints[-1], [[HALF_STANCE_CM, 50.0], [-HALF_STANCE_CM, 50.0]])
 
 
 def test_a_foot_rolls_over_its_ball_before_and_over_its_heel_after_a_step(stroll: Footwork) -> None:
