@@ -21,6 +21,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+
 from mlmg_runtime import bvh
 from mlmg_runtime.bvh import Bvh, Joint
 

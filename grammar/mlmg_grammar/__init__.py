@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from importlib.resources import files
+from pkgutil import get_data
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -16,7 +16,9 @@ _STARTS = (LINE, "unparsed")
 
 def grammar_text() -> str:
     """Return the grammar, in the notation of lark."""
-    return files(__name__).joinpath("motion_script.lark").read_text(encoding="utf-8")
+    data = get_data(__name__, "motion_script.lark")
+    assert data is not None, "the grammar is part of this package"
+    return data.decode("utf-8")
 
 
 def load(transformer: Transformer[Token, Any] | None = None, starts: Sequence[str] = _STARTS) -> Lark:

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 __all__ = ["compile", "play"]
 
 
-def compile(  # noqa: A001 - it is what compilers do
+def compile(
     text: str, library: Catalog, start: str | None = None
 ) -> tuple[ResolvedPlan | None, tuple[Diagnostic, ...]]:
     """Return the plan of a script and what is to be said of it; the plan is None if there are errors.

@@ -8,8 +8,8 @@ from typing import Any
 
 import lark
 from lark import Transformer
-from mlmg_grammar import is_name, load
 
+from mlmg_grammar import is_name, load
 from mlmg_lang import syntax
 from mlmg_lang.source import Span
 from mlmg_lang.tokens import Token

@@ -1,4 +1,4 @@
-"""Words of the language in the wrong case, where they can be taken for names: `WALK ONCE`, `END Upper-Body`."""
+"""Words of the language in the wrong case, where they could be names: `WALK ONCE`, `END Upper-Body`."""
 
 from __future__ import annotations
 
@@ -6,7 +6,6 @@ from collections.abc import Iterator
 from typing import Final
 
 from mlmg_grammar import reserved_words
-
 from mlmg_lang import syntax
 from mlmg_lang.build_syntax import motion_script
 from mlmg_lang.diagnostics import Diagnostic, Fix
@@ -29,7 +28,7 @@ def wrong_case(name: syntax.Name) -> Diagnostic:
 
 
 def guess_case(script: syntax.Script) -> Iterator[Diagnostic]:
-    """Yield the words that make sense in lower case alone; for where no library says which names there are."""
+    """Yield the words that make sense in lower case alone, for where no library knows the names."""
     for node in syntax.walk(script):
         if isinstance(node, syntax.Command):
             last = _last_operand(node.motion)

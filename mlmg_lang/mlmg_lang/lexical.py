@@ -6,7 +6,6 @@ import unicodedata
 from collections.abc import Iterable, Iterator
 
 from mlmg_grammar import is_name, reserved_words
-
 from mlmg_lang.build_syntax import bad_escapes, motion_script
 from mlmg_lang.diagnostics import Diagnostic, Fix
 from mlmg_lang.spelling import listed

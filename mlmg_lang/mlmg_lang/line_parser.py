@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, cast
 
 import lark
-from mlmg_grammar import LINE
 
+from mlmg_grammar import LINE
 from mlmg_lang.build_syntax import motion_script
 from mlmg_lang.source import Source, Span
 from mlmg_lang.syntax import Line

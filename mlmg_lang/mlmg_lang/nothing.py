@@ -21,7 +21,7 @@ class Room:
     Attributes
     ----------
     taken : the graphs that the command has named or found so far.
-    tops : the topmost of those left of this operand's `with`, which it has to be below; none before any `with`.
+    tops : the topmost of those left of this operand's `with`, which it has to be below; none before it.
     last : the graph last named or found.
     """
 
@@ -36,7 +36,7 @@ class Room:
 
 
 def nothing_found(
-    motion: syntax.Motion, tried: Sequence[str], chosen: bool, room: Room, names: Names, source: Source
+    motion: syntax.Motion, tried: Sequence[str], room: Room, names: Names, source: Source, *, chosen: bool
 ) -> Diagnostic:
     """Say why an expression is empty on all graphs tried; `chosen`: the script names the graph."""
     find = names.find if chosen else names.find_unqualified
@@ -50,7 +50,9 @@ def several_graphs(motion: syntax.Motion, written: Sequence[syntax.Name]) -> Dia
     """Say that the parts of one set of motions are said to be on different graphs."""
     names = listed(dict.fromkeys(name.text for name in written))
     message = f"this is one set of motions, but its parts are on {names}"
-    return Diagnostic("MS035", message, motion.span, "what different graphs do at once is joined by `with` or `and`")
+    return Diagnostic(
+        "MS035", message, motion.span, "what different graphs do at once is joined by `with` or `and`"
+    )
 
 
 def sub_leads_nowhere(name: syntax.Name, room: Room, names: Names) -> Diagnostic:
@@ -69,8 +71,10 @@ def wrong_graph(name: syntax.Name, graph: str, room: Room, names: Names) -> Diag
     tops = listed(room.tops)
     message = f"`{graph}` is not below {tops}"
     if any(graph in names.ancestors(top) for top in room.tops):
-        return Diagnostic("MS030", message, name.span, f"write the higher graph first: `{graph}` stands above {tops}")
-    advice = f"body parts beside each other are joined by `and`, or both by `with` to a graph above, as `{names.root}`"
+        return Diagnostic(
+            "MS030", message, name.span, f"write the higher graph first: `{graph}` stands above {tops}"
+        )
+    advice = f"parts beside each other are joined by `and`, or both by `with` to one above, as `{names.root}`"
     return Diagnostic("MS030", message, name.span, advice)
 
 
@@ -95,7 +99,7 @@ def _wanted(motion: syntax.Motion) -> Iterator[syntax.Name]:
 
 def _not_on(name: syntax.Name, tried: Sequence[str], names: Names) -> Diagnostic:
     """Say that a name means nothing on the graph that was named, and what it means on others."""
-    entry, place = _elsewhere(name, names)
+    entry = _elsewhere(name, names)
     graphs = listed(tried, "or")
     message = f"{_kind(entry)} `{entry.name}` is not on {graphs}"
     advice = f"it is on {listed(names.places(name.text))}"
@@ -107,12 +111,12 @@ def _not_on(name: syntax.Name, tried: Sequence[str], names: Names) -> Diagnostic
     return Diagnostic("MS022", message, name.span, advice, fixes=fixes)
 
 
-def _elsewhere(name: syntax.Name, names: Names) -> tuple[Entry, str]:
+def _elsewhere(name: syntax.Name, names: Names) -> Entry:
     """Return what a name means on the first graph on which it means something."""
     for graph in names.places(name.text):
         match = names.find_unqualified(graph, name.text)
         if match is not None:
-            return match.entry, graph
+            return match.entry
     raise AssertionError("binding lets no unknown name through")
 
 
@@ -132,17 +136,25 @@ def _tags_of(entry: Entry, graph: str, names: Names) -> tuple[str, ...]:
 
 def _out_of_room(name: syntax.Name, room: Room, names: Names) -> Diagnostic:
     """Say that a name means something only on graphs that the command does not leave to it."""
-    entry, _ = _elsewhere(name, names)
+    entry = _elsewhere(name, names)
     places = names.places(name.text)
     tops = listed(room.tops or (names.root,))
     if not names.below(room.tops):
         message = f"there is no graph below {tops} to do this"
-        return Diagnostic("MS030", message, name.span, f"{_kind(entry)} `{entry.name}` is on {listed(places)}")
+        return Diagnostic(
+            "MS030", message, name.span, f"{_kind(entry)} `{entry.name}` is on {listed(places)}"
+        )
     where = f"{_kind(entry)} `{entry.name}` is on {listed(places)} alone"
     if set(places) <= set(room.taken):
-        message = f"{where}, and the command has said already what {'that does' if len(places) == 1 else 'they do'}"
+        message = (
+            f"{where}, and the command has said already what {'that does' if len(places) == 1 else 'they do'}"
+        )
         return Diagnostic("MS031", message, name.span, "each graph is named once in a command")
-    message = f"{where}, which is not below {tops}" if len(places) == 1 else f"{where}, none of them free below {tops}"
+    message = (
+        f"{where}, which is not below {tops}"
+        if len(places) == 1
+        else f"{where}, none of them free below {tops}"
+    )
     left = joined((f"`{graph}`" for graph in room.allowed(names)), "or") if room.allowed(names) else "nothing"
     return Diagnostic("MS030", message, name.span, f"what comes after `with` is on {left} here")
 

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import json
+import os
 import unicodedata
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
-from typing import Any, Final
+from typing import Any, Final, TextIO
 
 from mlmg_lang.diagnostics import Diagnostic, Severity
 from mlmg_lang.source import Source, Span
@@ -35,7 +36,7 @@ def render_concise(diagnostics: Iterable[Diagnostic], source: Source) -> str:
 def render_json(analysed: Iterable[tuple[Source, Iterable[Diagnostic]]]) -> str:
     """Return the diagnostics of several scripts as one JSON list."""
     entries = [_entry(one, source) for source, diagnostics in analysed for one in diagnostics]
-    return json.dumps(entries, indent=1) + "\n"
+    return "[" + ",".join(f"\n {json.dumps(entry)}" for entry in entries) + ("\n]\n" if entries else "]\n")
 
 
 def _entry(one: Diagnostic, source: Source) -> dict[str, Any]:
@@ -177,3 +178,8 @@ def _is_unsafe(character: str) -> bool:
 def _safe(text: str) -> str:
     """Return a message, which may quote the script, without what a terminal could act on."""
     return "".join("\ufffd" if _is_unsafe(character) else character for character in text)
+
+
+def wants_colour(stream: TextIO) -> bool:
+    """Return whether to colour what goes to a stream: only on a terminal, and never with `NO_COLOR`."""
+    return stream.isatty() and not os.environ.get("NO_COLOR") and os.environ.get("TERM") != "dumb"

@@ -93,7 +93,7 @@ class _Selector:
     def _nothing(self, motion: syntax.Motion, graphs: tuple[str, ...] | Diagnostic, room: Room) -> Diagnostic:
         tried = room.allowed(self.names) if isinstance(graphs, Diagnostic) else graphs
         chosen = self._is_fixed(motion) and not isinstance(graphs, Diagnostic)
-        return nothing_found(motion, tried, chosen, room, self.names, self.source)
+        return nothing_found(motion, tried, room, self.names, self.source, chosen=chosen)
 
     # --- which graphs ---
 

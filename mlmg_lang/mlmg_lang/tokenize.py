@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from mlmg_grammar import scan
-
 from mlmg_lang.build_syntax import motion_script
 from mlmg_lang.source import Source, Span
 from mlmg_lang.tokens import Token

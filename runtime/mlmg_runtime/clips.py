@@ -82,13 +82,18 @@ def bvh_from_poses(skeleton: Skeleton, poses: Poses, frame_time_s: float, up: st
     return Bvh(skeleton.joints, frame_time_s, np.stack(columns, axis=1))
 
 
+def same_rate(rate: float, other: float) -> bool:
+    """Return whether two rates are one: files write 30 frames a second as 0.0333 s, and 29.97 is 30 to the eye."""
+    return abs(rate - other) < 2e-3 * other
+
+
 def resample(poses: Poses, rate: float, new_rate: float) -> Poses:
     """Return the same movement at another number of frames a second; both rates in frames a second.
 
     Frames that fall between two are blended: rotations by slerp, positions linearly. The last frame is the
     last one that still lies inside the clip.
     """
-    if poses.n_frames < 2 or abs(rate - new_rate) < 1e-3 * new_rate:
+    if poses.n_frames < 2 or same_rate(rate, new_rate):
         return poses
     n_frames = int(np.floor((poses.n_frames - 1) * new_rate / rate + 1e-6)) + 1
     return sample(poses, np.arange(n_frames, dtype=np.float64) * (rate / new_rate))

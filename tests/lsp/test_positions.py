@@ -3,6 +3,7 @@
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+
 from mlmg_lang.source import Source, Span
 from mlmg_lsp.positions import EditorPosition, offset_from_position, position_from_offset, range_from_span
 

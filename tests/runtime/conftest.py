@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+
 from mlmg_runtime.arrays import FloatArray
 from mlmg_runtime.building.build import BuiltLibrary, build_library
 from mlmg_runtime.building.configuration import read_configuration

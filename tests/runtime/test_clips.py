@@ -4,6 +4,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+
 from mlmg_runtime import bvh as bvh_files
 from mlmg_runtime import rotations
 from mlmg_runtime.arrays import FloatArray

@@ -4,6 +4,7 @@ import threading
 from pathlib import Path
 
 import pytest
+
 from mlmg_runtime.files import atomic_output
 
 

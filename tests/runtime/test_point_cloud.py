@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+
 from mlmg_runtime import bvh
 from mlmg_runtime.arrays import FloatArray
 from mlmg_runtime.clips import poses_from_bvh, skeleton_from_bvh

@@ -4,9 +4,10 @@ from itertools import permutations
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation, Slerp
+
 from mlmg_runtime import rotations
 from mlmg_runtime.arrays import FloatArray
-from scipy.spatial.transform import Rotation, Slerp
 
 THREE_AXES = ["".join(order) for order in permutations("XYZ")]
 TWO_AXES = ["".join(order) for order in permutations("XYZ", 2)]

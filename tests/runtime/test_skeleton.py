@@ -2,6 +2,7 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
+
 from mlmg_runtime.arrays import FloatArray
 from mlmg_runtime.bvh import Bvh, Joint
 from mlmg_runtime.clips import poses_from_bvh, skeleton_from_bvh

@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from mlmg_grammar import reserved_words
-
 from mlmg_lang.amounts import UNITS
 from mlmg_lang.build_syntax import motion_script
 from mlmg_lang.diagnostics import Fix

@@ -11,7 +11,7 @@ from mlmg_runtime import bvh
 from mlmg_runtime.building.configuration import ClipSource, LibraryConfiguration
 from mlmg_runtime.building.mirror import mirrored
 from mlmg_runtime.bvh.document import Bvh
-from mlmg_runtime.clips import poses_from_bvh, resample, skeleton_from_bvh
+from mlmg_runtime.clips import poses_from_bvh, resample, same_rate, skeleton_from_bvh
 from mlmg_runtime.errors import BvhError, ConfigurationError, LibraryError
 from mlmg_runtime.skeleton import Poses, Skeleton, has_positions
 
@@ -49,7 +49,7 @@ def load_clips(configuration: LibraryConfiguration, progress: Callable[[int, int
             skeleton = own
         _check_agreement(skeleton, configuration.clips[0], own, clip)
         rate = 1.0 / document.frame_time_s
-        frame_rate = frame_rate or rate
+        frame_rate = frame_rate or _usual(rate)
         poses[clip.name] = _poses(configuration, clip, document, skeleton, rate, frame_rate)
     progress(len(configuration.clips), len(configuration.clips))
     assert skeleton is not None and frame_rate is not None  # a configuration has at least one clip
@@ -80,6 +80,12 @@ def _poses(
     if clip.mirror:
         poses = mirrored(skeleton, poses)
     return resample(poses, rate, frame_rate)
+
+
+def _usual(rate: float) -> float:
+    """Return the whole rate that a file's rounded frame time means, or the rate itself."""
+    whole = float(round(rate))
+    return whole if whole > 0 and same_rate(rate, whole) else rate
 
 
 def _check_agreement(first: Skeleton, first_clip: ClipSource, own: Skeleton, clip: ClipSource) -> None:

@@ -3,6 +3,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+
 from mlmg_runtime.bvh import Bvh, Joint
 from mlmg_runtime.bvh.checking import check
 from mlmg_runtime.errors import ShapeError

@@ -5,6 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as st_np
+
 from mlmg_runtime.bvh.decimals import text_from_rows
 
 

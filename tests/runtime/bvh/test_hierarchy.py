@@ -1,6 +1,7 @@
 from collections.abc import Callable
 
 import pytest
+
 from mlmg_runtime.bvh import Bvh, Joint, read_bytes
 from mlmg_runtime.errors import BvhError
 

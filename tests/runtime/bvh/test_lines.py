@@ -1,4 +1,5 @@
 import pytest
+
 from mlmg_runtime.bvh.lines import Lines, shown
 from mlmg_runtime.errors import BvhError
 

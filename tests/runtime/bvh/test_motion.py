@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+
 from mlmg_runtime.bvh import Bvh, motion, read_bytes
 from mlmg_runtime.bvh.lines import Lines
 from mlmg_runtime.errors import BvhError

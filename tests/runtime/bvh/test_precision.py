@@ -1,4 +1,5 @@
 import numpy as np
+
 from mlmg_runtime.bvh import Bvh, Joint
 from mlmg_runtime.bvh.precision import decimals_needed
 

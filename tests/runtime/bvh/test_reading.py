@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+
 from mlmg_runtime import bvh
 from mlmg_runtime.bvh import Bvh, read_bytes
 from mlmg_runtime.errors import BvhError

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+
 from mlmg_runtime import bvh
 from mlmg_runtime.bvh import Bvh, Joint, read_bytes
 from mlmg_runtime.clips import poses_from_bvh, skeleton_from_bvh

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import pytest
+
 from mlmg_runtime import rotations
 from mlmg_runtime.arrays import FloatArray
 from mlmg_runtime.clips import poses_from_bvh, skeleton_from_bvh

@@ -1,5 +1,6 @@
 import numpy as np
 import pytest
+
 from mlmg_runtime.demo import curves
 from mlmg_runtime.demo.body import HANGING, STRAIGHTEST_KNEE_DEG, Performance, arm, mixed, poses, trunk
 from mlmg_runtime.demo.footwork import Footwork, StepPlan, footwork

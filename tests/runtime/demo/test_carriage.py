@@ -1,4 +1,5 @@
 import numpy as np
+
 from mlmg_runtime.demo import curves
 from mlmg_runtime.demo.body import HANGING, TRUNK, arm
 from mlmg_runtime.demo.carriage import Swing, breath, performed

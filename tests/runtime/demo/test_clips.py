@@ -1,5 +1,6 @@
 import numpy as np
 import pytest
+
 from mlmg_runtime.bvh import read
 from mlmg_runtime.clips import poses_from_bvh, skeleton_from_bvh
 from mlmg_runtime.demo.clips import demo_clips

@@ -1,6 +1,7 @@
 import tomllib
 
 import pytest
+
 from mlmg_runtime.demo.clips import demo_clips
 from mlmg_runtime.demo.configuration import demo_configuration
 from mlmg_runtime.demo.skeleton import human_skeleton

@@ -2,6 +2,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+
 from mlmg_runtime.demo import curves
 
 SHARES = np.linspace(-0.5, 1.5, 401)

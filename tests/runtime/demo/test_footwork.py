@@ -1,5 +1,6 @@
 import numpy as np
 import pytest
+
 from mlmg_runtime.demo import curves
 from mlmg_runtime.demo.footwork import HALF_STANCE_CM, Footwork, Step, StepPlan, footwork
 from mlmg_runtime.demo.skeleton import ANKLE_HEIGHT_CM, LEFT, RIGHT

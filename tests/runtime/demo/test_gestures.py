@@ -1,5 +1,6 @@
 import numpy as np
 import pytest
+
 from mlmg_runtime.demo import curves
 from mlmg_runtime.demo.body import ARM, HANGING
 from mlmg_runtime.demo.gestures import BELLY, HIGH, LIFTING, OFFER, Gesture, gesturing, nods, whipped

@@ -1,4 +1,5 @@
 import numpy as np
+
 from mlmg_runtime import rotations
 from mlmg_runtime.arrays import FloatArray
 from mlmg_runtime.demo.inverse_kinematics import leg_pose

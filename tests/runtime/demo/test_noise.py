@@ -1,5 +1,6 @@
 import numpy as np
 import pytest
+
 from mlmg_runtime.demo.noise import Noise
 
 TIMES = np.arange(60_000) / 30.0

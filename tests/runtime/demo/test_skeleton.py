@@ -1,5 +1,6 @@
 import numpy as np
 import pytest
+
 from mlmg_runtime import rotations
 from mlmg_runtime.demo.skeleton import SIDES, human_skeleton
 

@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy as np
 import pytest
 from hypothesis import strategies as st
+
 from mlmg_runtime.motion_graph import TRANSITION, UNREACHABLE, MotionGraph, Position, Transition
 
 

@@ -4,6 +4,7 @@ from math import ceil, floor
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+
 from mlmg_runtime.motion_graph import MotionGraph, Position
 from mlmg_runtime.playing.returning import find_return
 from mlmg_runtime.playing.timeline import Blend, Clip, Segment

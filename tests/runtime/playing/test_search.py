@@ -3,6 +3,7 @@ import random
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+
 from mlmg_runtime.library import Library
 from mlmg_runtime.motion_graph import Position
 from mlmg_runtime.playing.search import find_path
