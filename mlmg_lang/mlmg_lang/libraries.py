@@ -1,0 +1,57 @@
+"""Which library a script is read against."""
+
+from __future__ import annotations
+
+import os
+import tomllib
+from pathlib import Path
+
+SETTINGS = "mlmg.toml"
+VARIABLE = "MLMG_LIBRARY"
+
+
+def find_library(script: str | Path, option: str | Path | None = None) -> Path | None:
+    """Return the path of the library for a script, or None if nothing names one.
+
+    It is the first there is of: the option; the environment variable `MLMG_LIBRARY`; the key `library` of the
+    nearest `mlmg.toml`, in the script's folder or one above it, as a path from that file.
+
+    Parameters
+    ----------
+    script : the path of the script; `-` is taken to stand in the current folder.
+
+    Raises
+    ------
+    mlmg_runtime.errors.ConfigurationError
+        If that `mlmg.toml` is not TOML, or its `library` is not text.
+    OSError
+        If it cannot be read.
+    """
+    named = option or os.environ.get(VARIABLE)
+    if named:
+        return Path(named)
+    folder = Path.cwd() if str(script) == "-" else Path(script).absolute().parent
+    for place in (folder, *folder.parents):
+        settings = place / SETTINGS
+        if settings.is_file():
+            return _library_of(settings)
+    return None
+
+
+def _library_of(settings: Path) -> Path | None:
+    """Return the library that a settings file names, if it names one."""
+    try:
+        named = tomllib.loads(settings.read_text(encoding="utf-8-sig")).get("library")
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise _wrong(settings, str(error)) from error
+    if named is None:
+        return None
+    if not isinstance(named, str) or not named:
+        raise _wrong(settings, f"`library` should be the path of a library, as text; found {named!r}")
+    return settings.parent / named
+
+
+def _wrong(settings: Path, message: str) -> Exception:
+    from mlmg_runtime.errors import ConfigurationError
+
+    return ConfigurationError(settings, None, message)
