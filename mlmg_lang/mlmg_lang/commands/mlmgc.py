@@ -20,7 +20,10 @@ from mlmg_lang.commands.console import (
 )
 
 if TYPE_CHECKING:
+    from mlmg_lang.diagnostics import Diagnostic
     from mlmg_lang.perform import Performance
+    from mlmg_lang.source import Source
+    from mlmg_runtime.library import Library
 
 _DESCRIPTION = """\
 Compiles a script of Motion Script, plays it on a library of motions, and writes the motion as BVH.
@@ -79,16 +82,16 @@ def _run(parser: argparse.ArgumentParser, arguments: argparse.Namespace) -> int:
     if arguments.output == "-" and arguments.report == "-":
         tell("mlmgc: error: the motion and the report cannot both go to standard output")
         return WRONG_USAGE
-    from mlmg_lang.commands.scripts import load_library, read_script, show_diagnostics
     from mlmg_lang.front_end import analyse
+    from mlmg_lang.script_files import read_script
 
     source, unreadable = read_script(arguments.script)
     if unreadable:
-        show_diagnostics(source, unreadable)
+        _show(source, unreadable)
         return WRONG_CONTENT
-    library = load_library(arguments.script, arguments.library, ProgressLine())
+    library = _library(arguments.script, arguments.library)
     analysis = analyse(source, library, start=arguments.start)
-    show_diagnostics(source, analysis.diagnostics)
+    _show(source, analysis.diagnostics)
     if analysis.resolved is None:
         return WRONG_CONTENT
     if not analysis.resolved.statements:
@@ -101,6 +104,32 @@ def _run(parser: argparse.ArgumentParser, arguments: argparse.Namespace) -> int:
     performance = perform(analysis.resolved, library, arguments.seed, arguments.fps, arguments.blend)
     _write(performance, arguments.output, arguments.report)
     return DONE
+
+
+def _library(script: str, option: Path | None) -> Library:
+    """Open the library of a script; where nothing names one, the demo library, and say so."""
+    from mlmg_lang.libraries import find_library
+    from mlmg_runtime.library import open_library
+
+    path = find_library(script, option)
+    if path is not None:
+        return open_library(path)
+    from mlmg_runtime.demo.library import demo_library
+
+    progress = ProgressLine()
+    try:
+        path = demo_library(progress)
+    finally:
+        progress.clear()
+    tell("mlmgc: no library is named (--library, MLMG_LIBRARY, mlmg.toml): playing on the demo library")
+    return open_library(path)
+
+
+def _show(source: Source, diagnostics: tuple[Diagnostic, ...]) -> None:
+    from mlmg_lang.rendering import render_full, wants_colour
+
+    if diagnostics:
+        sys.stderr.write(render_full(diagnostics, source, wants_colour(sys.stderr)))
 
 
 def _write(performance: Performance, output: str, report: str | None) -> None:
