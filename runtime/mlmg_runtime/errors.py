@@ -24,6 +24,7 @@ class FileError(MlmgError):
     """
 
     def __init__(self, path: str | Path, line: int | None, message: str) -> None:
+        """Say what is wrong where."""
         self.path = str(path)
         self.line = line
         self.message = message

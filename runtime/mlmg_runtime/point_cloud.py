@@ -35,7 +35,7 @@ class PointCloud:
     window : k, frames in a window.
     limbs : array, shape (n_frames, n_points), complex. Points about their frame's centroid, times sqrt(weight).
     heights : array, shape (n_frames, n_points). Heights times sqrt(weight).
-    paths : array, shape (n_windows, k), complex. The frames' centroids about their window's, times sqrt(sum of weights).
+    paths : array, shape (n_windows, k), complex. Frames' centroids about their window's, times sqrt(sum of weights).
     energy : array, shape (n_windows,). sum_p w_p (|p|^2 on the ground + y^2) about the window's centroid.
     """
 
@@ -128,10 +128,11 @@ def window_distances(a: PointCloud, b: PointCloud) -> Matrix:
         )
     ground = _diagonal_sums(a.limbs.conj() @ b.limbs.T, a.window)
     ground += a.paths.conj() @ b.paths.T
-    distance = a.energy[:, None] + b.energy[None, :]
+    distance: Matrix = a.energy[:, None] + b.energy[None, :]
     distance -= 2.0 * np.abs(ground)
     distance -= 2.0 * _diagonal_sums(a.heights @ b.heights.T, a.window)
-    return np.maximum(distance, 0.0, out=distance)
+    np.maximum(distance, 0.0, out=distance)
+    return distance
 
 
 def _diagonal_sums(products: Matrix, window: int) -> Matrix:

@@ -15,7 +15,7 @@ import numpy as np
 from mlmg_runtime.arrays import FloatArray, IntArray
 from mlmg_runtime.building.candidates import Candidates, find_candidates
 from mlmg_runtime.building.combine import graph_joints, graph_parents, overall_motion_similarity
-from mlmg_runtime.building.configuration import GraphConfiguration, LibraryConfiguration
+from mlmg_runtime.building.configuration import GraphConfiguration, LibraryConfiguration, check_start
 from mlmg_runtime.building.connect import Edges, Positions, bridges
 from mlmg_runtime.building.load_clips import Clips, load_clips
 from mlmg_runtime.motion_graph import TRANSITION, UNREACHABLE, MotionGraph
@@ -70,9 +70,7 @@ class _PairResult(NamedTuple):
     sample: FloatArray
 
 
-def build_library(
-    configuration: LibraryConfiguration, executor: Executor | None, progress: Progress
-) -> BuiltLibrary:
+def build_library(configuration: LibraryConfiguration, executor: Executor | None, progress: Progress) -> BuiltLibrary:
     """Build all graphs of a configuration.
 
     Parameters
@@ -89,6 +87,7 @@ def build_library(
     clips = load_clips(configuration, lambda done, total: progress("reading clips", done, total))
     joints = [graph_joints(configuration, graph, clips.skeleton) for graph in configuration.graphs]
     parents = graph_parents(configuration, joints, clips.skeleton)
+    check_start(configuration, configuration.graphs[parents.index(None)])
     points = {name: world_positions(clips.skeleton, poses) for name, poses in clips.poses.items()}
     stature = _stature(clips.skeleton, points)
     built = []
@@ -157,9 +156,7 @@ def _build_graph(
     edges = _edges(settings, motions, pairs, results)
     positions = Positions(n_frames)
     is_auto = settings.threshold.kind == "auto"
-    kept = edges.where(
-        bridges(positions, edges, sigma, settings.window) if is_auto else edges.distance <= sigma
-    )
+    kept = edges.where(bridges(positions, edges, sigma, settings.window) if is_auto else edges.distance <= sigma)
     component = positions.component(kept)
     kept = kept.where(positions.inside(kept, component))
     graph = MotionGraph(
@@ -188,7 +185,7 @@ def _compare(clouds: Sequence[PointCloud], wants_sample: bool, pair: tuple[int, 
     sample = np.empty(0)
     if wants_sample:
         shares_no_frame = clouds[a].window if a == b else -math.inf
-        rows, columns = np.indices(distances.shape, sparse=True)
+        rows, columns = np.ogrid[: distances.shape[0], : distances.shape[1]]
         sample = distances[columns - rows >= shares_no_frame]
     return _PairResult(candidates, overall_motion_similarity(distances), sample)
 

@@ -61,7 +61,7 @@ class GraphConfiguration:
 
 @dataclass(frozen=True, slots=True)
 class LibraryConfiguration:
-    """A checked configuration; motions are in the order that decides ties. `frame_rate` None: that of the first clip."""
+    """A checked configuration; motions are in the order that decides ties. `frame_rate` None: the first clip's."""
 
     path: Path
     clips: tuple[ClipSource, ...]
@@ -92,16 +92,32 @@ def read_configuration(path: Path) -> LibraryConfiguration:
             path, line, "found bytes that are not UTF-8; a configuration is a UTF-8 text"
         ) from None
     except tomllib.TOMLDecodeError as error:
-        raise _toml_error(path, str(error)) from None
+        raise _toml_error(path, text, str(error)) from None
     return _Reader(path, document, key_lines(text)).library()
 
 
-def _toml_error(path: Path, message: str) -> ConfigurationError:
-    what, _, where = message.rpartition(" (at line ")
-    line = where.split(",")[0]
-    return ConfigurationError(
-        path, int(line) if line.isdigit() else None, f"not valid TOML: {what or message}"
-    )
+def check_start(configuration: LibraryConfiguration, root: GraphConfiguration) -> None:
+    """Check that the start motion, if one is named, is on the graph that holds the whole body.
+
+    Raises
+    ------
+    ConfigurationError
+        If it is not.
+    """
+    start = configuration.start
+    if start is not None and start not in root.motions:
+        raise ConfigurationError(
+            configuration.path,
+            configuration.lines.get(("library", "start")),
+            f"start `{start}` is not a motion of `{root.name}`{_near(start, list(root.motions))}",
+        )
+
+
+def _toml_error(path: Path, text: str, message: str) -> ConfigurationError:
+    what, _, where = message.rpartition(" (at ")
+    number = where.removeprefix("line ").split(",")[0]
+    line = int(number) if number.isdigit() else len(text.splitlines())
+    return ConfigurationError(path, line, f"not valid TOML: {what or message}")
 
 
 @dataclass(frozen=True, slots=True)
@@ -123,12 +139,6 @@ class _Reader:
         self._no_double_meaning(names, graphs)
         graphs = self._with_forbidden(graphs)
         start = self._text(library, ("library", "start"), None)
-        root_motions = list(graphs[0].motions)
-        if start is not None and _nfc(start) not in root_motions:
-            self._fail(
-                ("library", "start"),
-                f"start `{start}` is not a motion of `{graphs[0].name}`{_near(start, root_motions)}",
-            )
         return LibraryConfiguration(
             path=self.path,
             clips=tuple(clip for clip in clips if any(clip.name in graph.motions for graph in graphs)),
@@ -162,7 +172,10 @@ class _Reader:
         found.update(named)
         if not found:
             self._fail(
-                at, f"no clip matches {', '.join(patterns)}; expected BVH files beside this configuration"
+                at,
+                f"no clip matches {', '.join(patterns)}; expected BVH files beside this configuration"
+                if patterns
+                else "no clip is named; expected globs or paths of BVH files",
             )
         return list(found.values())
 
@@ -209,9 +222,7 @@ class _Reader:
 
     # Graphs and tags
 
-    def _graphs(
-        self, names: list[str], tags: dict[str, dict[str, tuple[str, ...]]]
-    ) -> tuple[GraphConfiguration, ...]:
+    def _graphs(self, names: list[str], tags: dict[str, dict[str, tuple[str, ...]]]) -> tuple[GraphConfiguration, ...]:
         tables = self.document.get("graph", [{"name": "Full-Body"}])
         if not isinstance(tables, list) or not tables or not all(isinstance(table, dict) for table in tables):
             self._fail(("graph",), "graphs are written as [[graph]] tables, one a graph")
@@ -237,13 +248,11 @@ class _Reader:
         self._known(table, at, keys)
         name = self._text(table, (*at, "name"), None)
         if not name:
-            self._fail(at, "a graph must have a name")
+            self._fail((*at, "name"), "a graph must have a name")
         window = table.get("window", DEFAULT_WINDOW)
         if type(window) is not int or not 2 <= window <= 1000:
             self._fail((*at, "window"), f"window must be a number of frames from 2 to 1000, found {window!r}")
-        motions = self._choice(
-            table, (*at, "motions"), ("all", "tagged"), "tagged" if name in tags else "all"
-        )
+        motions = self._choice(table, (*at, "motions"), ("all", "tagged"), "tagged" if name in tags else "all")
         own = tags.get(_nfc(name), {})
         return GraphConfiguration(
             name=_nfc(name),
@@ -278,9 +287,7 @@ class _Reader:
 
     def _weights(self, table: dict[str, Any], at: KeyPath) -> dict[str, float]:
         weights = table.get("weights", {})
-        if not isinstance(weights, dict) or not all(
-            _is_number(weight) and weight >= 0 for weight in weights.values()
-        ):
+        if not isinstance(weights, dict) or not all(_is_number(weight) and weight >= 0 for weight in weights.values()):
             self._fail(
                 (*at, "weights"),
                 f"weights must be a table of joint = number, none below 0, found {weights!r}",
@@ -306,10 +313,11 @@ class _Reader:
         for name in names:
             if name in graph_names:
                 self._fail(("clips", name), f"`{name}` is a clip and a graph; a name can mean one thing only")
-        for graph in graphs:
+        for index, graph in enumerate(graphs):
             if not graph.motions:
+                at: KeyPath = ("tags", graph.name)
                 self._fail(
-                    ("tags", graph.name),
+                    at if at in self.lines else ("graph", index),
                     f"the graph `{graph.name}` has no motion; give it clips under [tags.{graph.name}]",
                 )
             for motion, tags in graph.motions.items():
@@ -326,9 +334,8 @@ class _Reader:
     # Groups and transitions
 
     def _with_forbidden(self, graphs: tuple[GraphConfiguration, ...]) -> tuple[GraphConfiguration, ...]:
-        groups = self._table(self.document, ("groups",))
-        for name in groups:
-            self._texts(groups, ("groups", name), ())
+        table = self._table(self.document, ("groups",))
+        groups = {_nfc(name): self._texts(table, ("groups", name), ()) for name in table}
         entries = self.document.get("transitions", [])
         if not isinstance(entries, list) or not all(isinstance(entry, dict) for entry in entries):
             self._fail(("transitions",), "rules for transitions are written as [[transitions]] tables")
@@ -336,7 +343,7 @@ class _Reader:
         for index, entry in enumerate(entries):
             at: KeyPath = ("transitions", index)
             self._known(entry, at, ("graph", "forbid", "allow"))
-            name = self._choice(entry, (*at, "graph"), tuple(forbidden), graphs[0].name)
+            name = self._choice(entry, (*at, "graph"), tuple(forbidden), _whole(graphs).name)
             graph = next(graph for graph in graphs if graph.name == name)
             forbidden[name] |= self._pairs(entry, (*at, "forbid"), graph, groups)
             if "allow" in entry:
@@ -345,12 +352,10 @@ class _Reader:
         return tuple(_replace_forbidden(graph, frozenset(forbidden[graph.name])) for graph in graphs)
 
     def _pairs(
-        self, entry: dict[str, Any], at: KeyPath, graph: GraphConfiguration, groups: dict[str, Any]
+        self, entry: dict[str, Any], at: KeyPath, graph: GraphConfiguration, groups: Mapping[str, tuple[str, ...]]
     ) -> set[tuple[str, str]]:
         pairs = entry.get(str(at[-1]), [])
-        if not isinstance(pairs, list) or not all(
-            isinstance(pair, list) and len(pair) == 2 for pair in pairs
-        ):
+        if not isinstance(pairs, list) or not all(isinstance(pair, list) and len(pair) == 2 for pair in pairs):
             self._fail(at, f"{at[-1]} must be a list of [from, to] pairs, found {pairs!r}")
         found: set[tuple[str, str]] = set()
         for source, target in pairs:
@@ -359,18 +364,24 @@ class _Reader:
         return found
 
     def _members(
-        self, name: str, at: KeyPath, graph: GraphConfiguration, groups: dict[str, Any], depth: int = 0
+        self,
+        name: str,
+        at: KeyPath,
+        graph: GraphConfiguration,
+        groups: Mapping[str, tuple[str, ...]],
+        within: tuple[str, ...] = (),
     ) -> set[str]:
         name = _nfc(name)
+        if name in within:
+            self._fail(("groups", name), f"the group `{name}` is a member of itself")
         if name in graph.motions:
             return {name}
         tagged = {motion for motion, tags in graph.motions.items() if name in tags}
         if tagged:
             return tagged
-        if name in groups and depth < 20:
-            return set().union(
-                *(self._members(str(member), at, graph, groups, depth + 1) for member in groups[name])
-            )
+        if name in groups:
+            inside = (*within, name)
+            return set().union(*(self._members(member, at, graph, groups, inside) for member in groups[name]))
         known = [*graph.motions, *{tag for tags in graph.motions.values() for tag in tags}, *groups]
         self._fail(at, f"`{name}` is no motion or tag of `{graph.name}` and no group{_near(name, known)}")
 
@@ -415,15 +426,16 @@ class _Reader:
         return None if value is None else float(value)
 
     def _fail(self, at: KeyPath, message: str) -> NoReturn:
-        line = next(
-            (self.lines[at[:length]] for length in range(len(at), 0, -1) if at[:length] in self.lines), None
-        )
+        line = next((self.lines[at[:length]] for length in range(len(at), 0, -1) if at[:length] in self.lines), None)
         raise ConfigurationError(self.path, line, message)
 
 
-def _replace_forbidden(
-    graph: GraphConfiguration, forbidden: frozenset[tuple[str, str]]
-) -> GraphConfiguration:
+def _whole(graphs: tuple[GraphConfiguration, ...]) -> GraphConfiguration:
+    """Return the graph that is written as the whole body: the first that names no joints, or else the first."""
+    return next((graph for graph in graphs if graph.joints is None and not graph.without), graphs[0])
+
+
+def _replace_forbidden(graph: GraphConfiguration, forbidden: frozenset[tuple[str, str]]) -> GraphConfiguration:
     return replace(graph, forbidden=forbidden)
 
 

@@ -23,7 +23,13 @@ class Edges(NamedTuple):
 
     def where(self, keep: BoolArray) -> Edges:
         """Return some of the transitions."""
-        return Edges(*(column[keep] for column in self))
+        return Edges(
+            self.src_motion[keep],
+            self.src_frame[keep],
+            self.dst_motion[keep],
+            self.dst_frame[keep],
+            self.distance[keep],
+        )
 
 
 class Positions:

@@ -52,7 +52,8 @@ def load_clips(configuration: LibraryConfiguration, progress: Callable[[int, int
         frame_rate = frame_rate or _usual(rate)
         poses[clip.name] = _poses(configuration, clip, document, skeleton, rate, frame_rate)
     progress(len(configuration.clips), len(configuration.clips))
-    assert skeleton is not None and frame_rate is not None  # a configuration has at least one clip
+    assert skeleton is not None  # a configuration has at least one clip
+    assert frame_rate is not None
     return Clips(skeleton, frame_rate, poses, tuple(warnings))
 
 

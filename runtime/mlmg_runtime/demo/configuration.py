@@ -18,10 +18,10 @@ name = "Full-Body"
 name = "Upper-Body"
 joints = ["Spine"]
 
-# A wave is made below the elbow.
+# A wave of the hand takes the arm that carries it.
 [[graph]]
 name = "Left-Hand"
-joints = ["LeftForeArm"]
+joints = ["LeftArm"]
 
 [tags.Full-Body]
 Idle_01 = ["IDLE"]

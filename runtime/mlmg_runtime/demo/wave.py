@@ -1,4 +1,4 @@
-"""The wave of the left hand: all of it below the elbow, so that anyone standing or walking can make it."""
+"""The wave of the left hand: all of it in the arm, so that anyone standing or walking can make it."""
 
 from __future__ import annotations
 
@@ -14,12 +14,14 @@ from mlmg_runtime.demo.noise import Noise
 _WAVE_S = 22 / curves.FRAME_RATE
 _BEGIN_S = 1.8
 _END_S = _BEGIN_S + 5 * _WAVE_S
-# The forearm upright before the shoulder, the palm to the front.
-_READY = arm(flexion=6.0, abduction=22.0, outward=12.0, elbow=138.0, palm=68.0, wrist=-14.0, curl=10.0)
+# The hand beside the head, the elbow a little below the shoulder, the palm to the front.
+_READY = arm(flexion=20.0, abduction=72.0, outward=62.0, elbow=96.0, palm=-4.0, wrist=-8.0, curl=10.0)
+# On the way up and down the elbow bends more and stays closer to the body.
+_PASSING = arm(flexion=14.0, abduction=-14.0, elbow=34.0)
 
 
 def wave_01() -> Performance:
-    """Return standing: the left forearm is raised, the hand waves five times, and is let down."""
+    """Return standing: the left arm is raised, the hand waves five times, and is let down."""
     noise = Noise(31)
     times_s = curves.frame_times(220)
     feet = footwork(times_s, [], lean=noise.drift(times_s, 0.04, 2.5))
@@ -27,10 +29,11 @@ def wave_01() -> Performance:
     up = curves.plateau(times_s, _BEGIN_S - 0.35, _BEGIN_S + 0.35, _END_S - 0.3, _END_S + 0.3)
     phase = 2.0 * np.pi * (times_s - _BEGIN_S) / _WAVE_S
     waving = arm(
-        thumbward=20.0 * np.sin(phase),
-        elbow=5.0 * np.sin(phase + 0.8),
-        palm=10.0 * np.sin(phase + 0.5),
+        outward=15.0 * np.sin(phase),
+        elbow=11.0 * np.sin(phase),
+        thumbward=12.0 * np.sin(phase - 0.6),
         curl=5.0 * np.sin(phase - 0.9),
     )
+    passing = (4.0 * up * (1.0 - up))[:, None] * _PASSING
     looking = trunk(tilt=5.0 * up, glance=8.0 * up)
-    return performed(times_s, feet, noise, trunk_deg=looking, left=raised + up[:, None] * waving)
+    return performed(times_s, feet, noise, trunk_deg=looking, left=raised + passing + up[:, None] * waving)

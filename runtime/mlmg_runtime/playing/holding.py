@@ -81,7 +81,7 @@ def _on_the_spot(
 
 
 def _most_alike(library: Library, graph: MotionGraph, motion: str, from_frame: int) -> tuple[int, int] | None:
-    """Return the first frames of the two most alike windows of a motion: one at or after `from_frame`, one before it ends."""
+    """Return the first frames of a motion's two most alike windows: one from `from_frame` on, one wholly before it."""
     from mlmg_runtime.point_cloud import point_cloud, window_distances
     from mlmg_runtime.skeleton import world_positions
 
@@ -90,7 +90,7 @@ def _most_alike(library: Library, graph: MotionGraph, motion: str, from_frame: i
     if cloud.n_windows - graph.window <= 0 or from_frame >= cloud.n_windows:
         return None
     distances = window_distances(cloud, cloud)
-    late, early = np.indices(distances.shape, sparse=True)
+    late, early = np.ogrid[: distances.shape[0], : distances.shape[1]]
     distances = np.where((late >= from_frame) & (early <= late - graph.window), distances, np.inf)
     leave, enter = np.unravel_index(int(distances.argmin()), distances.shape)
     return (int(leave), int(enter)) if np.isfinite(distances[leave, enter]) else None

@@ -184,7 +184,7 @@ class Performer:
         return True
 
     def _way_out(self, graph: MotionGraph, target: int) -> tuple[int, Position, Path] | None:
-        """Return when and where a part leaves the graph above, and its path to `target`: the one that arrives soonest."""
+        """Return when and where a part leaves the graph above, and its path to `target`: the soonest to arrive."""
         best: tuple[int, Position, Path] | None = None
         seen: set[Position] = set()
         for clip in self._clips_above(graph):
