@@ -1,0 +1,165 @@
+"""The published examples give what was published, on the demo library and on real clips.
+
+Each row is a script, where it starts, and what the report must say: for each command the motions that drive the
+graphs it names. Where a script leaves the choice to the clips, any of the motions named will do; the graphs are fixed.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import mlmg_lang
+import numpy as np
+import pytest
+from mlmg_runtime import clips
+from mlmg_runtime.building.build import build_library
+from mlmg_runtime.building.configuration import read_configuration
+from mlmg_runtime.database import write_database
+from mlmg_runtime.library import Library, open_library
+from mlmg_runtime.skeleton import world_positions
+
+WALK = "Walk_01 Walk_02 Walk_03"
+IDLE = "Idle_01 Idle_02 Music_01 Talk_01"
+TALK = "Talk_01 Talk_02"
+
+
+@dataclass(frozen=True)
+class Example:
+    script: str
+    start: str | None
+    commands: tuple[dict[str, str], ...]
+    graphs: tuple[str, ...]
+
+
+EXAMPLES = (
+    Example("IDLE", "Idle_01", ({"Full-Body": "Idle_01"},), ("Full-Body",)),
+    Example("SWING_HAND", "Idle_01", ({"Upper-Body": "Walk_01 Walk_02"},), ("Full-Body", "Upper-Body")),
+    Example(
+        "WALK with Upper-Body TALK",
+        "Idle_01",
+        ({"Full-Body": WALK, "Upper-Body": TALK},),
+        ("Full-Body", "Upper-Body"),
+    ),
+    Example("TALK and IDLE", "Idle_01", ({"Full-Body": "Talk_01"},), ("Full-Body",)),
+    Example("WALK and TALK", "Idle_01", ({"Full-Body": WALK, "Upper-Body": TALK},), ("Full-Body", "Upper-Body")),
+    Example(
+        "Idle_01\nWALK for 10 sec\nWALK with Sub TALK for 10 sec\nIDLE",
+        None,
+        ({"Full-Body": "Idle_01"}, {"Full-Body": WALK}, {"Full-Body": WALK, "Upper-Body": TALK}, {"Full-Body": IDLE}),
+        ("Full-Body", "Upper-Body"),
+    ),
+    Example(
+        "Idle_02\nWALK for 10 sec\nWALK with Sub TALK for 10 sec\nIDLE",
+        None,
+        ({"Full-Body": "Idle_02"}, {"Full-Body": WALK}, {"Full-Body": WALK, "Upper-Body": TALK}, {"Full-Body": IDLE}),
+        ("Full-Body", "Upper-Body"),
+    ),
+)
+THREE_LAYERS = Example(
+    "Walk01 with Upper-Body Talk01 with Left-Hand Wave01",
+    None,
+    ({"Full-Body": "Walk_01", "Upper-Body": "Talk_01", "Left-Hand": "Wave_01"},),
+    ("Full-Body", "Upper-Body", "Left-Hand"),
+)
+
+TAGS = """
+[tags.Full-Body]
+Idle_01 = ["IDLE"]
+Idle_02 = ["IDLE"]
+Walk_01 = ["WALK"]
+Walk_02 = ["WALK"]
+Walk_03 = ["WALK", "WAVE_HAND"]
+Music_01 = ["Music", "IDLE"]
+Talk_01 = ["TALK", "IDLE"]
+Talk_02 = ["TALK"]
+{stones}
+[tags.Upper-Body]
+Idle_01 = ["IDLE"]
+Walk_01 = ["SWING_HAND"]
+Walk_02 = ["SWING_HAND"]
+Walk_03 = ["WAVE_HAND"]
+Music_01 = ["Music", "IDLE"]
+Talk_01 = ["TALK", "IDLE"]
+Talk_02 = ["TALK"]
+{stones}
+"""
+
+
+def build(folder: Path, sources: list[Path]) -> Library:
+    """Build a reference library from folders of clips; all but the first are untagged stepping stones."""
+    stones = "\n".join(f"{clip.stem} = []" for source in sources[1:] for clip in sorted(source.glob("*.bvh")))
+    patterns = ", ".join(f'"{source.as_posix()}/*.bvh"' for source in sources)
+    graphs = '[[graph]]\nname = "Full-Body"\n[[graph]]\nname = "Upper-Body"\njoints = ["Spine"]\n'
+    text = f'[library]\nclips = [{patterns}]\nframe_rate = 30\nstart = "Idle_01"\n{graphs}{TAGS.format(stones=stones)}'
+    (folder / "library.toml").write_text(text, encoding="utf-8")
+    built = build_library(read_configuration(folder / "library.toml"), None, lambda *_: None)
+    write_database(built, folder / "reference.mlmg")
+    return open_library(folder / "reference.mlmg")
+
+
+@pytest.fixture(scope="session")
+def reference(mocap, tmp_path_factory) -> Library:
+    return build(tmp_path_factory.mktemp("reference"), [mocap / "reference"])
+
+
+@pytest.fixture(scope="session")
+def reference_plus(mocap, tmp_path_factory) -> Library:
+    return build(tmp_path_factory.mktemp("plus"), [mocap / "reference", mocap / "reference-plus"])
+
+
+@pytest.fixture(scope="session")
+def reference_6channel(mocap, tmp_path_factory) -> Library:
+    return build(tmp_path_factory.mktemp("6channel"), [mocap / "reference-6channel"])
+
+
+def report_of(example: Example, library: Library) -> dict[str, Any]:
+    plan, diagnostics = mlmg_lang.compile(example.script, library, start=example.start)
+    assert plan is not None, diagnostics
+    return mlmg_lang.play(plan, library).report
+
+
+def check(example: Example, library: Library) -> None:
+    report = report_of(example, library)
+    assert len(report["commands"]) == len(example.commands)
+    for command, expected in zip(report["commands"], example.commands, strict=True):
+        assert set(command["motions"]) == set(expected)
+        for graph, motions in expected.items():
+            assert command["motions"][graph] in motions.split(), (command, graph)
+    assert tuple(report["tracks"]) == example.graphs
+
+
+@pytest.mark.parametrize("example", [*EXAMPLES, THREE_LAYERS], ids=lambda example: example.script)
+def test_a_published_example_plays_as_told_on_the_demo_library(example, demo_library):
+    check(example, demo_library)
+
+
+@pytest.mark.parametrize("example", EXAMPLES, ids=lambda example: example.script)
+@pytest.mark.parametrize("name", ["reference", "reference_plus", "reference_6channel"])
+def test_a_published_example_plays_as_told_on_real_clips(example, name, request):
+    check(example, request.getfixturevalue(name))
+
+
+@pytest.mark.parametrize("example", EXAMPLES, ids=lambda example: example.script)
+def test_the_six_channel_form_of_the_clips_gives_the_same_motion(example, reference, reference_6channel):
+    plans = [
+        (library, mlmg_lang.compile(example.script, library, start=example.start)[0])
+        for library in (reference, reference_6channel)
+    ]
+    plain, six = (mlmg_lang.play(plan, library) for library, plan in plans)
+    assert plain.report["commands"] == six.report["commands"]
+    assert list(plain.report["tracks"]) == list(six.report["tracks"])
+    shown = []
+    for performance in (plain, six):
+        skeleton = clips.skeleton_from_bvh(performance.bvh)
+        positions = world_positions(skeleton, clips.poses_from_bvh(performance.bvh))
+        shown.append(positions[:, [skeleton.names.index(name) for name in reference.skeleton.names]])
+    assert np.abs(shown[0] - shown[1]).max() < 0.05
+
+
+def test_soonest_walk_then_best_fitting_talk(demo_library):
+    report = report_of(EXAMPLES[2], demo_library)
+    walk, upper = report["commands"][0]["motions"]["Full-Body"], demo_library.by_name["Upper-Body"]
+    fits = {talk: upper.oms[upper.index[walk], upper.index[talk]] for talk in TALK.split()}
+    assert report["commands"][0]["motions"]["Upper-Body"] == min(fits, key=fits.get)
