@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 
 import numpy as np
 
@@ -10,7 +11,7 @@ from mlmg_runtime import rotations
 from mlmg_runtime.arrays import FloatArray
 from mlmg_runtime.skeleton import Poses, Skeleton, world_transforms
 
-_SIDE = re.compile(r"left|right|(?<![A-Za-z])[lr](?![A-Za-z])|^[LR](?=[A-Z])", re.IGNORECASE)
+_SIDE = re.compile(r"(?i:left|right)|(?<![A-Za-z])[lrLR](?![A-Za-z])|^[LR](?=[A-Z])")
 _OTHER = {"left": "right", "right": "left", "l": "r", "r": "l"}
 
 
@@ -29,9 +30,7 @@ def mirrored(skeleton: Skeleton, poses: Poses) -> Poses:
     )
     local = turned.copy()
     for joint in range(skeleton.travel + 1, len(skeleton.joints)):
-        local[:, joint] = rotations.multiply(
-            rotations.inverse(turned[:, skeleton.parents[joint]]), turned[:, joint]
-        )
+        local[:, joint] = rotations.multiply(rotations.inverse(turned[:, skeleton.parents[joint]]), turned[:, joint])
     moved = poses.positions.copy()
     moved[:, 0] = position[:, skeleton.travel] * np.array([-1.0, 1.0, 1.0])
     return Poses(local, moved)
@@ -39,16 +38,19 @@ def mirrored(skeleton: Skeleton, poses: Poses) -> Poses:
 
 def partner_joints(skeleton: Skeleton) -> tuple[int, ...]:
     """Return for each joint the one of the other side: left for right by name, itself where there is none."""
-
-    def other(match: re.Match[str]) -> str:
-        found = match[0]
-        changed = _OTHER[found.lower()]
-        return changed.upper() if found.isupper() else changed.capitalize() if found[0].isupper() else changed
-
-    swapped = [_SIDE.sub(other, name, count=1) for name in skeleton.names]
+    index = {name: joint for joint, name in enumerate(skeleton.names)}
     return tuple(
-        skeleton.names.index(name) if name in skeleton.names else j for j, name in enumerate(swapped)
+        next((index[other] for other in _other_side(name) if other in index), joint) for name, joint in index.items()
     )
+
+
+def _other_side(name: str) -> Iterator[str]:
+    """Yield the name with one of the words or letters that may tell the side exchanged."""
+    for match in _SIDE.finditer(name):
+        found = match[0]
+        other = _OTHER[found.lower()]
+        other = other.upper() if found.isupper() else other.capitalize() if found[0].isupper() else other
+        yield name[: match.start()] + other + name[match.end() :]
 
 
 def _frame_change(skeleton: Skeleton, joint: int, partner: int) -> FloatArray:
@@ -58,8 +60,7 @@ def _frame_change(skeleton: Skeleton, joint: int, partner: int) -> FloatArray:
     own = [skeleton.joints[child].offset for child in skeleton.children[joint]]
     partners = partner_joints(skeleton)
     other = [
-        np.multiply(skeleton.joints[partners[child]].offset, (-1.0, 1.0, 1.0))
-        for child in skeleton.children[joint]
+        np.multiply(skeleton.joints[partners[child]].offset, (-1.0, 1.0, 1.0)) for child in skeleton.children[joint]
     ]
     lengths = np.linalg.norm(own, axis=1) if own else np.empty(0)
     if not own or lengths.max() < 1e-9:
