@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
@@ -12,10 +13,11 @@ from mlmg_runtime.building.configuration import ClipSource, LibraryConfiguration
 from mlmg_runtime.building.mirror import mirrored
 from mlmg_runtime.bvh.document import Bvh
 from mlmg_runtime.clips import poses_from_bvh, resample, same_rate, skeleton_from_bvh
-from mlmg_runtime.errors import BvhError, ConfigurationError, LibraryError
+from mlmg_runtime.errors import ConfigurationError, LibraryError
 from mlmg_runtime.skeleton import Poses, Skeleton, has_positions
 
-OFFSET_TOLERANCE = 0.05
+# Bones may differ by what rounding makes of them: by this share of all bones laid end to end.
+OFFSET_TOLERANCE = 1e-4
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,8 +78,6 @@ def _poses(
                 f"frames = [{first}, {end}], but {clip.path} has {n_frames} frames",
             )
         poses = poses[first:end]
-    if poses.n_frames == 0:
-        raise BvhError(clip.path, None, "the clip has no frames; a motion needs at least one")
     if clip.mirror:
         poses = mirrored(skeleton, poses)
     return resample(poses, rate, frame_rate)
@@ -93,10 +93,9 @@ def _check_agreement(first: Skeleton, first_clip: ClipSource, own: Skeleton, cli
     """Refuse a clip whose joints, tree or bones differ from the first clip's."""
 
     def fail(message: str) -> None:
-        raise LibraryError(
-            clip.path, None, f"{message}, in {first_clip.path}; the clips of a library share a skeleton"
-        )
+        raise LibraryError(clip.path, None, f"{message}, in {first_clip.path}; the clips of a library share a skeleton")
 
+    tolerance = OFFSET_TOLERANCE * sum(math.hypot(*joint.offset) for joint in first.joints[first.travel + 1 :])
     for name in own.names:
         if name not in first.names:
             fail(f"has a joint `{name}` that is not there")
@@ -107,15 +106,12 @@ def _check_agreement(first: Skeleton, first_clip: ClipSource, own: Skeleton, cli
             fail(f"has the joint `{own.names[index]}` where `{name}` stands")
         mine, theirs = own.joints[index], first.joints[index]
         if mine.parent != theirs.parent:
-            fail(
-                f"hangs the joint `{name}` on `{own.names[mine.parent]}`, not on `{first.names[theirs.parent]}`"
-            )
+            fail(f"hangs the joint `{name}` on `{own.names[mine.parent]}`, not on `{first.names[theirs.parent]}`")
         if has_positions(mine) != has_positions(theirs):
-            fail(
-                f"{'gives' if has_positions(mine) else 'does not give'} positions to the joint `{name}`, unlike"
-            )
+            given, has = ("positions", "none") if has_positions(mine) else ("no positions", "some")
+            fail(f"gives {given} to the joint `{name}`, which has {has}")
         apart = float(np.abs(np.subtract(mine.offset, theirs.offset)).max())
-        if apart > OFFSET_TOLERANCE and not has_positions(mine) and index != own.travel:
+        if apart > tolerance and not has_positions(mine) and index != own.travel:
             fail(f"has the joint `{name}` at OFFSET {_offset(mine.offset)}, not {_offset(theirs.offset)}")
 
 
