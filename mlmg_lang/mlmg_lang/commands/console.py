@@ -49,6 +49,16 @@ def tell(message: str) -> None:
     print(message, file=sys.stderr)
 
 
+def one_thread_a_product() -> None:
+    """Keep matrix products, of which no command has large ones, on one thread; to be called before numpy is imported.
+
+    The threads of a BLAS wait by spinning: on a busy machine a build took five times as long with them. What is to run
+    at once is run at once by `--jobs`.
+    """
+    for variable in ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "OMP_NUM_THREADS"):
+        os.environ.setdefault(variable, "1")
+
+
 def utf8_streams() -> None:
     """Make standard input, output and error speak UTF-8, whatever the locale."""
     for stream in (sys.stdin, sys.stdout, sys.stderr):

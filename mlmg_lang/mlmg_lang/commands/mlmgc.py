@@ -14,6 +14,7 @@ from mlmg_lang.commands.console import (
     WRONG_CONTENT,
     WRONG_USAGE,
     ProgressLine,
+    one_thread_a_product,
     run_command,
     tell,
     utf8_streams,
@@ -40,6 +41,7 @@ Without --library, MLMG_LIBRARY or a key `library` in mlmg.toml, the demo librar
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run `mlmgc` and return its exit code."""
     utf8_streams()
+    one_thread_a_product()
     parser = _parser()
     parsed = parser.parse_args(arguments)
     return run_command("mlmgc", lambda: _run(parser, parsed))

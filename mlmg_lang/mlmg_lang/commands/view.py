@@ -43,9 +43,7 @@ class _UsageError(Exception):
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the command's arguments."""
-    parser.add_argument(
-        "motions", metavar="IN.bvh", nargs="+", help="the motion, or several; - reads standard input"
-    )
+    parser.add_argument("motions", metavar="IN.bvh", nargs="+", help="the motion, or several; - reads standard input")
     parser.add_argument(
         "-o",
         "--output",
@@ -63,9 +61,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         type=_frames,
         help="the moments of a PNG (10,25,40), the part of a GIF (90:240)",
     )
-    parser.add_argument(
-        "--no-open", action="store_true", help="write the player, print where it is, open no browser"
-    )
+    parser.add_argument("--no-open", action="store_true", help="write the player, print where it is, open no browser")
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -88,9 +84,7 @@ def _frames(text: str) -> Frames:
         else:
             chosen = tuple(int(part) for part in text.split(","))
     except ValueError:
-        raise argparse.ArgumentTypeError(
-            f"expected frames such as 10,25,40 or 90:240, found {text!r}"
-        ) from None
+        raise argparse.ArgumentTypeError(f"expected frames such as 10,25,40 or 90:240, found {text!r}") from None
     numbers = (chosen.start, chosen.stop) if isinstance(chosen, slice) else chosen
     if any(number is not None and number < 0 for number in numbers):
         raise argparse.ArgumentTypeError(f"frames count from 0, found {text!r}")
@@ -106,15 +100,11 @@ def _check(arguments: argparse.Namespace) -> None:
         )
     n_motions, n_reports = len(arguments.motions), len(arguments.report)
     if ending != ".html" and n_motions > 1:
-        raise _UsageError(
-            f"{arguments.output}: a {ending} shows one motion, found {n_motions}; .html shows several"
-        )
+        raise _UsageError(f"{arguments.output}: a {ending} shows one motion, found {n_motions}; .html shows several")
     if n_reports not in (0, n_motions):
         raise _UsageError(f"expected a --report for each of {n_motions} motions, found {n_reports}")
     if ending == ".html" and arguments.frames is not None:
-        raise _UsageError(
-            "--frames is for .png and .gif; the player has all frames, and opens at one with #frame=90"
-        )
+        raise _UsageError("--frames is for .png and .gif; the player has all frames, and opens at one with #frame=90")
     if ending == ".gif" and isinstance(arguments.frames, tuple):
         raise _UsageError("a .gif shows the frames between two: --frames 90:240")
     if arguments.motions.count(_STANDARD_INPUT) > 1:
@@ -215,9 +205,7 @@ def _open_player(scenes: list[Scene], browse: bool) -> None:
 
 def _has_screen() -> bool:
     """Return whether windows can open; on a bare terminal a text browser would start, which shows nothing."""
-    return sys.platform in ("darwin", "win32") or any(
-        os.environ.get(key) for key in ("DISPLAY", "WAYLAND_DISPLAY")
-    )
+    return sys.platform in ("darwin", "win32") or any(os.environ.get(key) for key in ("DISPLAY", "WAYLAND_DISPLAY"))
 
 
 def _browse(page: Path) -> bool:
