@@ -4,6 +4,7 @@ from pathlib import Path
 
 import pytest
 from hypothesis import settings
+
 from mlmg_runtime.demo.library import demo_library as build_demo_library
 from mlmg_runtime.library import Library, open_library
 

@@ -10,9 +10,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-import mlmg_lang
 import numpy as np
 import pytest
+
+import mlmg_lang
 from mlmg_runtime import clips
 from mlmg_runtime.building.build import build_library
 from mlmg_runtime.building.configuration import read_configuration

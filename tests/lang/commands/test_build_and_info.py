@@ -1,0 +1,129 @@
+"""mlmg build and mlmg info, on a folder of clips."""
+
+import csv
+import io
+import json
+
+import pytest
+
+from mlmg_lang.commands import mlmg
+from mlmg_lang.commands.console import ProgressLine
+
+
+def test_building_says_on_standard_error_what_came_of_it(folder, capsys):
+    assert mlmg.main(["build", "library.toml", "-o", "my.mlmg", "--jobs", "2"]) == 0
+    out, err = capsys.readouterr()
+    assert out == ""
+    assert err.startswith("my.mlmg: 3 clips, 270 frames, 2 graphs, ")
+
+
+def test_without_an_output_the_library_is_written_beside_its_configuration(folder):
+    assert mlmg.main(["build", "library.toml"]) == 0
+    assert (folder / "library.mlmg").exists()
+
+
+def test_building_twice_gives_the_same_bytes(built):
+    assert mlmg.main(["build", "library.toml", "-o", "again.mlmg", "--jobs", "1"]) == 0
+    assert (built / "my.mlmg").read_bytes() == (built / "again.mlmg").read_bytes()
+
+
+def test_a_mistake_in_the_configuration_is_one_line_with_file_and_line(folder, capsys):
+    (folder / "library.toml").write_text('[library]\nclips = ["*.bvh"]\nstrat = "Stand"\n', encoding="utf-8")
+    assert mlmg.main(["build", "library.toml", "-o", "my.mlmg"]) == 1
+    assert capsys.readouterr().err == (
+        "mlmg build: error: library.toml:3: unknown key `strat`; did you mean `start`?; "
+        "expected one of clips, frame_rate, up, start\n"
+    )
+    assert not (folder / "my.mlmg").exists()
+
+
+def test_a_damaged_clip_leaves_the_old_library_as_it_is(built, capsys):
+    before = (built / "my.mlmg").read_bytes()
+    (built / "Step.bvh").write_text("HIERARCHY\nROOT Hips\n{\n")
+    assert mlmg.main(["build", "library.toml", "-o", "my.mlmg"]) == 1
+    assert "Step.bvh:" in capsys.readouterr().err
+    assert (built / "my.mlmg").read_bytes() == before
+    assert sorted(path.name for path in built.iterdir() if path.name.startswith(".")) == []
+
+
+def test_a_configuration_that_is_not_there_is_wrong_usage(folder, capsys):
+    assert mlmg.main(["build", "nothing.toml"]) == 2
+    assert capsys.readouterr().err == "mlmg build: error: nothing.toml: No such file or directory\n"
+
+
+def test_info_tells_graphs_motions_tags_and_transitions(built, capsys):
+    assert mlmg.main(["info", "my.mlmg"]) == 0
+    text = capsys.readouterr().out
+    assert text.startswith("my.mlmg: 3 clips, 270 frames (9 s at 30 fps), 4 joints, ")
+    assert "Upper-Body, below Full-Body: 2 motions, " in text
+    assert "  Step      3.0 s  WALK" in text
+
+
+def test_info_as_json_holds_what_the_text_says(built, capsys):
+    assert mlmg.main(["info", "my.mlmg", "--json"]) == 0
+    description = json.loads(capsys.readouterr().out)
+    assert description["clips"] == {"Stand": 90, "Step": 90, "Reach": 90}
+    full, upper = description["graphs"]
+    assert (full["parent"], upper["parent"]) == (None, "Full-Body")
+    assert upper["motions"] == {"Step": ["SWING"], "Reach": ["TALK"]}
+
+
+@pytest.mark.parametrize(
+    ("option", "columns"),
+    [
+        ("--transitions", ["src_motion", "src_frame", "dst_motion", "dst_frame", "distance", "cost"]),
+        ("--oms", ["a", "b", "oms"]),
+        ("--motions", ["motion", "n_frames", "seconds", "tags"]),
+    ],
+)
+def test_tables_are_csv_on_standard_output(built, capsys, option, columns):
+    assert mlmg.main(["info", "my.mlmg", option, "Upper-Body"]) == 0
+    header, *rows = csv.reader(io.StringIO(capsys.readouterr().out))
+    assert header == columns
+    assert rows
+    assert all(len(row) == len(columns) for row in rows)
+
+
+def test_a_graph_that_is_not_there_is_named_with_those_that_are(built, capsys):
+    assert mlmg.main(["info", "my.mlmg", "--oms", "Legs"]) == 1
+    assert capsys.readouterr().err == (
+        "mlmg info: error: my.mlmg: there is no graph `Legs`; there are Full-Body, Upper-Body\n"
+    )
+
+
+def test_a_file_that_is_no_library_is_told_plainly(folder, capsys):
+    assert mlmg.main(["info", "Stand.bvh"]) == 1
+    assert "expected a file that `mlmg build` wrote" in capsys.readouterr().err
+
+
+def test_an_unknown_command_is_told_with_the_nearest(capsys):
+    assert mlmg.main(["biuld"]) == 2
+    assert capsys.readouterr().err == "mlmg: error: no command `biuld`; did you mean `mlmg build`?\n"
+
+
+def test_without_a_command_all_commands_are_listed(capsys):
+    assert mlmg.main([]) == 0
+    out = capsys.readouterr().out
+    assert all(f"  {name} " in out for name in mlmg.SUBCOMMANDS)
+
+
+class Terminal(io.StringIO):
+    def isatty(self) -> bool:
+        return True
+
+
+def test_progress_on_a_terminal_says_how_long_work_will_still_take_and_is_taken_away():
+    now = iter([0.0, 10.0])
+    terminal = Terminal()
+    line = ProgressLine(terminal, lambda: next(now))
+    line("comparing", 0, 4)
+    line("comparing", 1, 4)
+    assert terminal.getvalue() == "\rcomparing 0/4\rcomparing 1/4, 30 s left"
+    line.clear()
+    assert terminal.getvalue().endswith("\r" + " " * len("comparing 1/4, 30 s left") + "\r")
+
+
+def test_progress_says_nothing_where_there_is_no_terminal():
+    stream = io.StringIO()
+    ProgressLine(stream)("comparing", 1, 4)
+    assert stream.getvalue() == ""

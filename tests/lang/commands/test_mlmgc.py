@@ -1,0 +1,148 @@
+"""mlmgc: from a script to a BVH and a report; and what it says when it cannot."""
+
+import io
+import json
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+from mlmg_lang.commands import mlmgc
+from mlmg_runtime import bvh
+
+SCRIPT = "Stand for 1 sec\nWALK for 2 sec\n"
+
+
+@pytest.fixture
+def scene(built):
+    (built / "scene.ms").write_text(SCRIPT, encoding="utf-8")
+    return built
+
+
+def compiled(*options: str) -> int:
+    return mlmgc.main(["scene.ms", "--library", "my.mlmg", *options])
+
+
+def test_a_script_becomes_a_bvh_and_a_report(scene, capsys):
+    assert compiled("-o", "out.bvh", "--report", "out.json") == 0
+    report = json.loads((scene / "out.json").read_text(encoding="utf-8"))
+    motion = bvh.read(scene / "out.bvh")
+    assert motion.frames.shape[0] == report["n_frames"]
+    assert motion.joints == bvh.read(scene / "Stand.bvh").joints
+    assert report["library"] == "my.mlmg"
+    walk = report["commands"][1]
+    assert (walk["text"], walk["span"]) == ("WALK for 2 sec", [2, 1, 2, 15])
+    assert walk["end"] - walk["arrive"] == 60
+    assert capsys.readouterr().out == ""
+
+
+def test_the_same_inputs_give_the_same_bytes(scene):
+    assert compiled("-o", "a.bvh", "--report", "a.json") == compiled("-o", "b.bvh", "--report", "b.json") == 0
+    assert (scene / "a.bvh").read_bytes() == (scene / "b.bvh").read_bytes()
+    assert (scene / "a.json").read_bytes() == (scene / "b.json").read_bytes()
+
+
+def test_dashes_are_standard_input_and_output(scene, capsysbinary, monkeypatch):
+    monkeypatch.setattr(sys, "stdin", io.TextIOWrapper(io.BytesIO(SCRIPT.encode())))
+    assert mlmgc.main(["-", "--library", "my.mlmg", "-o", "-"]) == 0
+    out = capsysbinary.readouterr().out
+    assert compiled("-o", "out.bvh") == 0
+    assert out == (scene / "out.bvh").read_bytes()
+
+
+def test_another_frame_rate_is_the_same_motion_in_other_steps(scene):
+    assert compiled("-o", "30.bvh", "--report", "30.json") == 0
+    assert compiled("-o", "60.bvh", "--report", "60.json", "--fps", "60") == 0
+    slow, fast = bvh.read(scene / "30.bvh"), bvh.read(scene / "60.bvh")
+    assert fast.frame_time_s == pytest.approx(1 / 60, abs=1e-6)
+    np.testing.assert_allclose(fast.frames[::2][:, :3], slow.frames[:, :3], atol=1e-5)
+    reports = [json.loads((scene / f"{rate}.json").read_text()) for rate in (30, 60)]
+    assert reports[1]["commands"][1]["arrive"] == 2 * reports[0]["commands"][1]["arrive"]
+    assert reports[1]["tracks"]["Full-Body"][0]["speed"] == 0.5
+
+
+def test_linear_blending_differs_from_c1_in_transitions_alone(scene):
+    assert compiled("-o", "c1.bvh", "--report", "r.json") == compiled("-o", "linear.bvh", "--blend", "linear") == 0
+    tracks = json.loads((scene / "r.json").read_text())["tracks"]["Full-Body"]
+    first = next(entry for entry in tracks if entry["kind"] == "transition")
+    c1, linear = bvh.read(scene / "c1.bvh").frames, bvh.read(scene / "linear.bvh").frames
+    np.testing.assert_array_equal(c1[: first["begin"]], linear[: first["begin"]])
+    assert np.abs(c1 - linear)[first["begin"] : first["end"]].max() > 0.01
+
+
+def test_start_is_where_the_character_begins(scene):
+    (scene / "scene.ms").write_text("WALK for 1 sec\n")
+    assert compiled("-o", "out.bvh", "--report", "out.json", "--start", "Reach") == 0
+    tracks = json.loads((scene / "out.json").read_text())["tracks"]["Full-Body"]
+    first = tracks[0]
+    assert first.get("motion", first.get("from", [""])[0]) == "Reach"
+
+
+def test_a_mistake_is_drawn_and_nothing_is_written(scene, capsys):
+    (scene / "scene.ms").write_text("WLAK for 2 sec\n")
+    (scene / "out.bvh").write_text("what was here")
+    assert compiled("-o", "out.bvh") == 1
+    err = capsys.readouterr().err
+    assert "scene.ms:1:1" in err
+    assert "^^^^" in err
+    assert "`WALK`" in err
+    assert (scene / "out.bvh").read_text() == "what was here"
+
+
+def test_an_empty_script_says_what_a_script_is(scene, capsys):
+    (scene / "scene.ms").write_text("# only a comment\n")
+    assert compiled("-o", "out.bvh") == 1
+    assert "nothing to play" in capsys.readouterr().err
+    assert not (scene / "out.bvh").exists()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "code", "message"),
+    [
+        (["none.ms", "--library", "my.mlmg", "-o", "o.bvh"], 2, "none.ms: No such file or directory"),
+        (["scene.ms", "--library", "none.mlmg", "-o", "o.bvh"], 2, "none.mlmg: No such file or directory"),
+        (["scene.ms", "--library", "my.mlmg", "-o", "no/o.bvh"], 2, "no/o.bvh: No such file or directory"),
+        (["scene.ms", "--library", "Stand.bvh", "-o", "o.bvh"], 1, "Stand.bvh: "),
+        (["scene.ms", "--library", "my.mlmg", "-o", "-", "--report", "-"], 2, "standard output"),
+    ],
+)
+def test_what_cannot_be_opened_or_is_wrong_is_one_line(scene, capsys, arguments, code, message):
+    assert mlmgc.main(arguments) == code
+    err = capsys.readouterr().err
+    assert message in err
+    assert err.count("\n") == 1
+
+
+def test_a_script_that_is_no_text_is_one_diagnostic(scene, capsys):
+    (scene / "scene.ms").write_bytes(b"WALK \xff\xfe for 1 sec\n")
+    assert compiled("-o", "out.bvh") == 1
+    assert "UTF-8" in capsys.readouterr().err
+
+
+def test_the_setting_beside_a_script_names_its_library(scene, tmp_path_factory, monkeypatch):
+    (scene / "mlmg.toml").write_text('library = "my.mlmg"\n')
+    monkeypatch.chdir(tmp_path_factory.mktemp("elsewhere"))
+    assert mlmgc.main([str(scene / "scene.ms"), "-o", str(scene / "out.bvh")]) == 0
+
+
+def test_without_a_library_the_demo_library_plays_and_says_so_in_one_line(folder, tmp_path, monkeypatch, capsys):
+    monkeypatch.setenv("MLMG_CACHE", str(tmp_path / "cache"))
+    (folder / "scene.ms").write_text("Idle_01 for 1 sec\n")
+    assert mlmgc.main(["scene.ms", "-o", "out.bvh"]) == 0
+    assert capsys.readouterr().err.splitlines() == [
+        "mlmgc: no library is named (--library, MLMG_LIBRARY, mlmg.toml): playing on the demo library",
+        "out.bvh: 30 frames, 1.0 s",
+    ]
+
+
+def test_two_processes_that_build_the_demo_library_at_once_do_no_harm(folder, tmp_path):
+    (folder / "scene.ms").write_text("Idle_01 for 1 sec\n")
+    environment = {"MLMG_CACHE": str(tmp_path / "cache"), "PATH": ""}
+    command = [sys.executable, "-m", "mlmg_lang.commands.mlmgc", "scene.ms", "-o"]
+    both = [subprocess.Popen([*command, f"{n}.bvh"], env=environment, stderr=subprocess.PIPE) for n in (1, 2)]
+    assert [process.wait() for process in both] == [0, 0], [process.stderr.read() for process in both]
+    for process in both:
+        process.stderr.close()
+    assert (folder / "1.bvh").read_bytes() == (folder / "2.bvh").read_bytes()
+    assert len(list((tmp_path / "cache").iterdir())) == 1
