@@ -16,8 +16,10 @@ from mlmg_runtime.clips import poses_from_bvh, resample, same_rate, skeleton_fro
 from mlmg_runtime.errors import ConfigurationError, LibraryError
 from mlmg_runtime.skeleton import Poses, Skeleton, has_positions
 
-# Bones may differ by what rounding makes of them: by this share of all bones laid end to end.
-OFFSET_TOLERANCE = 1e-4
+# Bones may differ by this, in centimetres or the like; by a hundredth of it where a body is so small that its unit
+# must be the metre: a person's bones, laid end to end, are about 4 m long.
+OFFSET_TOLERANCE = 0.05
+_BONES_IN_METRES = 20.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -95,7 +97,8 @@ def _check_agreement(first: Skeleton, first_clip: ClipSource, own: Skeleton, cli
     def fail(message: str) -> None:
         raise LibraryError(clip.path, None, f"{message}, in {first_clip.path}; the clips of a library share a skeleton")
 
-    tolerance = OFFSET_TOLERANCE * sum(math.hypot(*joint.offset) for joint in first.joints[first.travel + 1 :])
+    bones = sum(math.hypot(*joint.offset) for joint in first.joints[first.travel + 1 :])
+    tolerance = OFFSET_TOLERANCE if bones > _BONES_IN_METRES else 0.01 * OFFSET_TOLERANCE
     for name in own.names:
         if name not in first.names:
             fail(f"has a joint `{name}` that is not there")
