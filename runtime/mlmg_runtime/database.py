@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from mlmg_runtime.arrays import frozen
 from mlmg_runtime.bvh.document import Joint
 from mlmg_runtime.errors import LibraryError
 from mlmg_runtime.files import atomic_output
@@ -253,4 +254,4 @@ def read_clip(connection: sqlite3.Connection, name: str, skeleton: Skeleton) -> 
     turned = np.frombuffer(rotations, dtype="<f4").astype(np.float64).reshape(n_frames, len(skeleton.joints), 4)
     turned /= np.linalg.norm(turned, axis=-1, keepdims=True)
     moved = np.frombuffer(positions, dtype="<f8").reshape(n_frames, len(skeleton.positioned), 3)
-    return Poses(turned, moved)
+    return Poses(frozen(turned), moved)
