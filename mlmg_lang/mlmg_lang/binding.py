@@ -70,9 +70,7 @@ def inexact(name: syntax.Name, meant: str) -> Iterator[Diagnostic]:
     if normal(name.text) != normal(meant):
         message = f"`{name.text}` is spelt `{meant}` in the library"
         right = script_name(meant)
-        yield Diagnostic(
-            "MS020", message, name.span, f"write `{right}`", fixes=(Fix(name.span, right, safe=True),)
-        )
+        yield Diagnostic("MS020", message, name.span, f"write `{right}`", fixes=(Fix(name.span, right, safe=True),))
 
 
 def graph_name(name: syntax.Name, scope: Scope) -> Iterator[Unbound]:
@@ -118,7 +116,7 @@ def _qualified(node: syntax.Qualified, scope: Scope) -> Iterator[Unbound]:
         if wrong and names.graph(name.text) is not None and names.places(node.graph.text):
             yield Unbound(_swapped(node, names))
             return
-        inner = list(_motion_name(name, scope))
+        inner = list(_motion_name(name, scope, on=names.graph(node.graph.text)))
         if wrong and is_shouted(name) and inner and not is_shouted(node.graph):
             wrong = []
         wrong += inner
@@ -133,7 +131,8 @@ def _called(node: syntax.Call, name: syntax.Name, scope: Scope) -> Iterator[Unbo
         yield from graph_name(name, scope)
 
 
-def _motion_name(name: syntax.Name, scope: Scope) -> Iterator[Unbound]:
+def _motion_name(name: syntax.Name, scope: Scope, on: str | None = None) -> Iterator[Unbound]:
+    """Yield a name that should be a motion's or a tag's, if it is not; `on`: the graph written before it."""
     if scope.defines(name):
         yield Unbound(None)
         return
@@ -146,22 +145,29 @@ def _motion_name(name: syntax.Name, scope: Scope) -> Iterator[Unbound]:
     elif scope.names.graph(name.text) is not None or is_sub(name):
         yield Unbound(_graph_alone(name, scope.names))
     else:
-        yield Unbound(_unknown(name, scope.names))
+        yield Unbound(_unknown(name, scope.names, on))
 
 
 # --- what to say -----------------------------------------------------------------------------------------
 
 
-def _unknown(name: syntax.Name, names: Names) -> Diagnostic:
+def _unknown(name: syntax.Name, names: Names, on: str | None) -> Diagnostic:
     message = f"no tag or motion `{name.text}` in this library"
-    near = nearest(name.text, names.spellings())
+    near = nearest(name.text, names.spellings_on(on)) if on is not None else ()
+    near = near or nearest(name.text, names.spellings())
     if not near:
         near_graph = nearest(name.text, names.graphs, limit=1)
         advice = f"there is a graph `{near_graph[0]}`" if near_graph else _all_names(names)
         return Diagnostic("MS021", message, name.span, advice)
-    advice = joined((f"on {names.places(word)[0]} there is `{word}`" for word in near), "and")
+    advice = joined(f"on {_place(word, names, on)} there is `{word}`" for word in near)
     fixes = tuple(Fix(name.span, script_name(word), safe=False) for word in near)
     return Diagnostic("MS021", message, name.span, advice, fixes=fixes)
+
+
+def _place(word: str, names: Names, on: str | None) -> str:
+    """Return a graph on which there is a name: the one asked for, if it is there."""
+    places = names.places(word)
+    return on if on in places and on is not None else places[0]
 
 
 def _all_names(names: Names) -> str | None:
@@ -174,11 +180,7 @@ def _all_names(names: Names) -> str | None:
 def _unknown_graph(name: syntax.Name, names: Names) -> Diagnostic:
     near = nearest(name.text, names.graphs)
     message = f"no graph `{name.text}` in this library"
-    advice = (
-        f"the graphs are {listed(names.graphs)}"
-        if len(names.graphs) > 1
-        else f"its one graph is `{names.root}`"
-    )
+    advice = f"the graphs are {listed(names.graphs)}" if len(names.graphs) > 1 else f"its one graph is `{names.root}`"
     if near:
         advice = f"there is {listed(near, 'or')}"
     fixes = tuple(Fix(name.span, script_name(graph), safe=False) for graph in near)
@@ -195,18 +197,14 @@ def _swapped(node: syntax.Qualified, names: Names) -> Diagnostic:
     graph, motion = names.graph(node.motion.name.text), node.graph
     right = f"{script_name(graph or '')} {script_name(motion.text)}"
     message = f"`{motion.text}` is a {_kind(motion, names)}, not a graph; the graph comes first"
-    return Diagnostic(
-        "MS025", message, node.span, f"write `{right}`", fixes=(Fix(node.span, right, safe=True),)
-    )
+    return Diagnostic("MS025", message, node.span, f"write `{right}`", fixes=(Fix(node.span, right, safe=True),))
 
 
 def _graph_alone(name: syntax.Name, names: Names) -> Diagnostic:
     graph = names.graph(name.text) or name.text
     message = f"`{graph}` is a graph, not a motion"
     known = names.spellings_on(graph)[:1] if graph in names.graphs else ()
-    advice = (
-        f"write what it is to do, as in `{script_name(graph)} {script_name(known[0])}`" if known else None
-    )
+    advice = f"write what it is to do, as in `{script_name(graph)} {script_name(known[0])}`" if known else None
     return Diagnostic("MS024", message, name.span, advice)
 
 

@@ -181,9 +181,7 @@ class _Mover:
         if motion not in self._on(graph):
             self._leave_out(above, motion, "rule 1", f"it is not on `{graph}`")
         elif not any(self._leads_on(graph, source) for source in sources):
-            self._leave_out(
-                above, motion, "unreachable", f"nothing asked of `{graph}` can be reached from it"
-            )
+            self._leave_out(above, motion, "unreachable", f"nothing asked of `{graph}` can be reached from it")
 
     # --- from the highest to the lowest: how does each get there? ---
 

@@ -36,13 +36,9 @@ def _quoted(token: Token) -> Iterator[Diagnostic]:
         doubled = "".join(part if part not in wrong else f"\\{part}" for part in _pieces(inside))
         message = f'{listed(wrong)} in a name in quotes: only `\\"` and `\\\\` mean something'
         help_ = "a backslash itself is written `\\\\`"
-        yield Diagnostic(
-            "MS004", message, token.span, help_, fixes=(Fix(token.span, f'"{doubled}"', safe=False),)
-        )
+        yield Diagnostic("MS004", message, token.span, help_, fixes=(Fix(token.span, f'"{doubled}"', safe=False),))
     elif not inside.strip():
-        yield Diagnostic(
-            "MS004", "a name cannot be empty", token.span, help="write a motion or tag between the quotes"
-        )
+        yield Diagnostic("MS004", "a name cannot be empty", token.span, help="write a motion or tag between the quotes")
 
 
 def _pieces(inside: str) -> Iterator[str]:
@@ -55,17 +51,11 @@ def _pieces(inside: str) -> Iterator[str]:
 
 
 def _odd_name(token: Token) -> Diagnostic:
-    wrong = tuple(
-        dict.fromkeys(letter for letter in token.text if not f"_{letter}".isidentifier() and letter != "-")
-    )
+    wrong = tuple(dict.fromkeys(letter for letter in token.text if not f"_{letter}".isidentifier() and letter != "-"))
     plain = unicodedata.normalize("NFKC", token.text)
     if plain != token.text and plain.isascii():
-        message = (
-            f"{listed(map(_shown, wrong or (token.text,)))}: wide letters and signs have no meaning here"
-        )
-        return Diagnostic(
-            "MS003", message, token.span, f"write `{plain}`", fixes=(Fix(token.span, plain, safe=True),)
-        )
+        message = f"{listed(map(_shown, wrong or (token.text,)))}: wide letters and signs have no meaning here"
+        return Diagnostic("MS003", message, token.span, f"write `{plain}`", fixes=(Fix(token.span, plain, safe=True),))
     message = f"a name without quotes cannot hold {listed(map(_shown, wrong))}"
     if not wrong:
         message = f"a name without quotes cannot begin with {_shown(token.text[0])}"

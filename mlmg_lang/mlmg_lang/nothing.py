@@ -10,7 +10,7 @@ from mlmg_lang.diagnostics import Diagnostic, Fix
 from mlmg_lang.lexical import script_name
 from mlmg_lang.names import Entry, Kind, Names
 from mlmg_lang.source import Source
-from mlmg_lang.spelling import joined, listed, nearest
+from mlmg_lang.spelling import joined, listed, nearest, some
 from mlmg_lang.structure import group_of
 
 
@@ -50,9 +50,7 @@ def several_graphs(motion: syntax.Motion, written: Sequence[syntax.Name]) -> Dia
     """Say that the parts of one set of motions are said to be on different graphs."""
     names = listed(dict.fromkeys(name.text for name in written))
     message = f"this is one set of motions, but its parts are on {names}"
-    return Diagnostic(
-        "MS035", message, motion.span, "what different graphs do at once is joined by `with` or `and`"
-    )
+    return Diagnostic("MS035", message, motion.span, "what different graphs do at once is joined by `with` or `and`")
 
 
 def sub_leads_nowhere(name: syntax.Name, room: Room, names: Names) -> Diagnostic:
@@ -71,9 +69,7 @@ def wrong_graph(name: syntax.Name, graph: str, room: Room, names: Names) -> Diag
     tops = listed(room.tops)
     message = f"`{graph}` is not below {tops}"
     if any(graph in names.ancestors(top) for top in room.tops):
-        return Diagnostic(
-            "MS030", message, name.span, f"write the higher graph first: `{graph}` stands above {tops}"
-        )
+        return Diagnostic("MS030", message, name.span, f"write the higher graph first: `{graph}` stands above {tops}")
     advice = f"parts beside each other are joined by `and`, or both by `with` to one above, as `{names.root}`"
     return Diagnostic("MS030", message, name.span, advice)
 
@@ -141,20 +137,12 @@ def _out_of_room(name: syntax.Name, room: Room, names: Names) -> Diagnostic:
     tops = listed(room.tops or (names.root,))
     if not names.below(room.tops):
         message = f"there is no graph below {tops} to do this"
-        return Diagnostic(
-            "MS030", message, name.span, f"{_kind(entry)} `{entry.name}` is on {listed(places)}"
-        )
+        return Diagnostic("MS030", message, name.span, f"{_kind(entry)} `{entry.name}` is on {listed(places)}")
     where = f"{_kind(entry)} `{entry.name}` is on {listed(places)} alone"
     if set(places) <= set(room.taken):
-        message = (
-            f"{where}, and the command has said already what {'that does' if len(places) == 1 else 'they do'}"
-        )
+        message = f"{where}, and the command has said already what {'that does' if len(places) == 1 else 'they do'}"
         return Diagnostic("MS031", message, name.span, "each graph is named once in a command")
-    message = (
-        f"{where}, which is not below {tops}"
-        if len(places) == 1
-        else f"{where}, none of them free below {tops}"
-    )
+    message = f"{where}, which is not below {tops}" if len(places) == 1 else f"{where}, none of them free below {tops}"
     left = joined((f"`{graph}`" for graph in room.allowed(names)), "or") if room.allowed(names) else "nothing"
     return Diagnostic("MS030", message, name.span, f"what comes after `with` is on {left} here")
 
@@ -166,7 +154,7 @@ def _no_combination(motion: syntax.Motion, chosen: Sequence[str], source: Source
     place = f" on {listed(chosen)}" if chosen else ""
     if isinstance(motion, syntax.And):
         parts = [source.slice(operand.span) for operand in motion.operands]
-        message = f"nothing{place} has {'both ' if len(parts) == 2 else ''}{listed(parts)}"
+        message = f"nothing{place} has {'both ' if len(parts) == 2 else ''}{some(parts)}"
         advice = None if chosen else "nor can they be shared out over different graphs"
         return Diagnostic("MS032", message, motion.span, advice)
     inner = next((node for node in syntax.walk(motion) if isinstance(node, syntax.And)), None)

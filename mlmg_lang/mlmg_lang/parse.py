@@ -60,9 +60,7 @@ class _Reader:
         if isinstance(node, syntax.RepeatHead | syntax.ChooseHead):
             braces = "{ ... }" if isinstance(node, syntax.RepeatHead) else "{ ... | ... }"
             word = tokens[0].text
-            self._say(
-                "MS013", f"`{word}` needs its statements in `{{ }}`", node.span, f"write `{braces}` after it"
-            )
+            self._say("MS013", f"`{word}` needs its statements in `{{ }}`", node.span, f"write `{braces}` after it")
             return syntax.Broken(node.span)
         if isinstance(node, syntax.Weight):
             message = "a weight stands at the beginning of a branch of `choose { }`"
@@ -73,9 +71,7 @@ class _Reader:
     def _block(self, block: Block) -> list[syntax.Item]:
         """Return the item of a block; or, if nothing takes it, what stands in and before it."""
         if not block.head:
-            self._say(
-                "MS013", "this `{` has no `repeat` or `choose` before it", block.brace, "take the braces out"
-            )
+            self._say("MS013", "this `{` has no `repeat` or `choose` before it", block.brace, "take the braces out")
             return self._flattened(block)
         head = self._read(block.head)
         if isinstance(head, syntax.ChooseHead):
@@ -85,9 +81,7 @@ class _Reader:
             return [syntax.Repeat(head, self.items(block.branches[0]), block.span)]
         if isinstance(head, syntax.Broken):
             return [head, *self._flattened(block)]
-        self._say(
-            "MS013", "only `repeat` and `choose` are followed by `{`", block.brace, "take the braces out"
-        )
+        self._say("MS013", "only `repeat` and `choose` are followed by `{`", block.brace, "take the braces out")
         return [
             syntax.Broken(head.span) if isinstance(head, syntax.Weight) else head,
             *self._flattened(block),
@@ -100,9 +94,7 @@ class _Reader:
         """Return a branch of `choose`, with its weight if its first line is one."""
         weight, first = None, pieces[0] if pieces else None
         if isinstance(first, Line) and [token.type for token in first.tokens] == ["INTEGER", "COLON"]:
-            weight = syntax.Weight(
-                first.tokens[0].text, Span(first.tokens[0].span.start, first.tokens[1].span.end)
-            )
+            weight = syntax.Weight(first.tokens[0].text, Span(first.tokens[0].span.start, first.tokens[1].span.end))
             pieces = pieces[1:]
         body = self.items(pieces)
         parts = [*([weight] if weight else []), *body]

@@ -55,7 +55,7 @@ class _Planner:
         planned: typed.Statement = typed.Unplanned(item.span)
         match item:
             case _ if len(self.diagnostics) > _MAX_MISTAKES:
-                pass
+                self._give_up(item.span)
             case syntax.Command():
                 planned = self._command(item)
             case syntax.Wait(amount, span):
@@ -67,6 +67,11 @@ class _Planner:
             case syntax.Choose(_, branches, span):
                 planned = typed.Choose(tuple(self._branch(branch) for branch in branches), span)
         return planned
+
+    def _give_up(self, span: Span) -> None:
+        if self.diagnostics[-1].code != "MS006":
+            message = f"more than {_MAX_MISTAKES} mistakes; the names from here on are not looked up"
+            self.diagnostics.append(Diagnostic("MS006", message, span, "is this the right library?"))
 
     def _branch(self, branch: syntax.Branch) -> typed.Branch:
         weight = 1 if branch.weight is None else _count(branch.weight.number)
@@ -119,9 +124,7 @@ class _Planner:
                 if match is not None and match.others:
                     spellings = listed((leaf.name, *(other.name for other in match.others)), "or")
                     message = f"`{leaf.written}` could be {spellings}"
-                    yield Diagnostic(
-                        "MS023", message, leaf.span, "write it exactly as it is spelt in the library"
-                    )
+                    yield Diagnostic("MS023", message, leaf.span, "write it exactly as it is spelt in the library")
                 else:
                     yield from inexact(name, leaf.name)
 

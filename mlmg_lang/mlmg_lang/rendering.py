@@ -14,8 +14,9 @@ from mlmg_lang.diagnostics import Diagnostic, Severity
 from mlmg_lang.source import Source, Span
 
 _TAB = 4
-_WIDEST = 120
-"""The widest stretch of a line that is drawn, in columns."""
+_LONGEST = 120
+"""The longest stretch of a line that is drawn, in characters."""
+_LONGEST_MESSAGE = 600
 _COLOURS: Final[Mapping[Severity, str]] = MappingProxyType(
     {Severity.ERROR: "31", Severity.WARNING: "33", Severity.HINT: "36"}
 )
@@ -109,15 +110,17 @@ def _drawn(one: Diagnostic, source: Source, paint: _Painter) -> Iterator[str]:
 def _line_drawn(source: Source, span: Span) -> tuple[str, int, int]:
     """Return the line in which a span begins, how many columns stand before it and how many it takes.
 
-    A span of no length is drawn one column wide, one that goes on in other lines to the end of its first.
+    A span of no length is drawn one column wide, one that goes on in other lines to the end of its first. Of a
+    long line only what is around the span is drawn.
     """
-    row = source.position(span.start)[0]
-    begin, end = _line_span(source, row)
-    cells = list(_cells(source.text[begin:end]))
-    first, last = min(span.start, end) - begin, min(span.end, end) - begin
-    before = sum(len_ for _, len_ in cells[:first])
-    under = max(1, sum(len_ for _, len_ in cells[first:last]))
-    return _cropped(cells, before, under)
+    begin, end = _line_span(source, source.position(span.start)[0])
+    first = begin if end - begin <= _LONGEST else max(begin, span.start - _LONGEST // 4)
+    last = min(end, first + _LONGEST)
+    lead, tail = ("…" if first > begin else ""), ("…" if last < end else "")
+    cells = list(_cells(source.text[first:last]))
+    before = sum(width for _, width in cells[: span.start - first])
+    under = sum(width for _, width in cells[span.start - first : span.end - first])
+    return lead + "".join(text for text, _ in cells) + tail, len(lead) + before, max(1, under)
 
 
 def _line_span(source: Source, row: int) -> tuple[int, int]:
@@ -125,24 +128,9 @@ def _line_span(source: Source, row: int) -> tuple[int, int]:
     starts = source.line_starts
     begin = starts[row - 1]
     end = starts[row] if row < len(starts) else len(source.text)
-    return begin, begin + len(source.text[begin:end].rstrip("\r\n"))
-
-
-def _cropped(cells: list[tuple[str, int]], before: int, under: int) -> tuple[str, int, int]:
-    """Return the part of a line that is drawn: all of it, or what is around the span."""
-    if sum(width for _, width in cells) <= _WIDEST:
-        return "".join(text for text, _ in cells), before, under
-    under = min(under, _WIDEST // 2)
-    left = max(0, before - _WIDEST // 4)
-    kept, column, skipped = [], 0, 0
-    for text, width in cells:
-        if column < left:
-            skipped += width
-        elif column + width <= left + _WIDEST:
-            kept.append(text)
-        column += width
-    lead, tail = ("…" if skipped else ""), ("…" if column > left + _WIDEST else "")
-    return f"{lead}{''.join(kept)}{tail}", before - skipped + len(lead), under
+    while end > begin and source.text[end - 1] in "\r\n":
+        end -= 1
+    return begin, end
 
 
 def _cells(line: str) -> Iterator[tuple[str, int]]:
@@ -176,7 +164,9 @@ def _is_unsafe(character: str) -> bool:
 
 
 def _safe(text: str) -> str:
-    """Return a message, which may quote the script, without what a terminal could act on."""
+    """Return a message, which may quote the script, without what a terminal could act on, and not too long."""
+    if len(text) > _LONGEST_MESSAGE:
+        text = f"{text[: _LONGEST_MESSAGE // 2]} … {text[-_LONGEST_MESSAGE // 2 :]}"
     return "".join("\ufffd" if _is_unsafe(character) else character for character in text)
 
 

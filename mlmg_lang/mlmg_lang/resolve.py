@@ -15,9 +15,7 @@ from mlmg_lang.diagnostics import Diagnostic, Fix, Note
 from mlmg_lang.names import Kind, Names
 from mlmg_lang.resolved import LeftOut
 from mlmg_lang.source import Source
-from mlmg_lang.spelling import joined, listed, nearest
-
-_MAX_LISTED = 6
+from mlmg_lang.spelling import listed, nearest, some
 
 
 @dataclass(frozen=True, slots=True)
@@ -163,9 +161,7 @@ class _Resolver:
         setter, graph = narrow.setter
         if self.trial is None:
             stopped = self._as_stop(way, narrow)
-            self.trial = _Trial(
-                index, stopped, self.states[:], dict(self.done), dict(self.told), self.forbidden
-            )
+            self.trial = _Trial(index, stopped, self.states[:], dict(self.done), dict(self.told), self.forbidden)
         line, _ = self.source.position(command.span.start)
         because = f"what line {line} asks of `{narrow.graph}` cannot begin in it"
         here = {motion: LeftOut(motion, "later command", because) for motion in sorted(narrow.without)}
@@ -211,7 +207,7 @@ class _Resolver:
 
     def _reason(self, stopped: flow.Stopped) -> Diagnostic:
         """Say why a command cannot be obeyed."""
-        motions = _some(stopped.motions)
+        motions = some(stopped.motions)
         notes = tuple(self._origin(stopped))
         if not stopped.by_rule_1:
             message = f"from {motions}, nothing asked of `{stopped.graph}` can be reached on that graph"
@@ -220,7 +216,7 @@ class _Resolver:
         verb = "is" if len(stopped.motions) == 1 else "are"
         message = f"`{graph}` cannot leave {motions}, which {verb} not on it"
         free = [motion for motion in self.names.motions(above) if motion in self.names.motion_set(graph)]
-        advice = f"it can leave these of `{above}`: {_some(tuple(free))}" if free else None
+        advice = f"it can leave these of `{above}`: {some(free)}" if free else None
         return Diagnostic("MS040", message, stopped.span, advice, notes)
 
     def _origin(self, stopped: flow.Stopped) -> Iterator[Note]:
@@ -229,12 +225,3 @@ class _Resolver:
             yield Note(f"`{stopped.above}` is set here", self.statements[stopped.setter[0]].span)
         elif not stopped.within:
             yield Note(f"the character starts in `{self.start}`")
-
-
-def _some(motions: tuple[str, ...]) -> str:
-    """Return names as a sentence has them, the first few if there are many."""
-    if len(motions) <= _MAX_LISTED:
-        return listed(motions)
-    return joined(
-        [f"`{motion}`" for motion in motions[:_MAX_LISTED]] + [f"{len(motions) - _MAX_LISTED} more"]
-    )

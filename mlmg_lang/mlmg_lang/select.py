@@ -75,9 +75,7 @@ class _Selector:
             return graphs if isinstance(graphs, Diagnostic) else self._nothing(motion, graphs, room)
         return self._shared(motion, graphs, room)
 
-    def _shared(
-        self, motion: syntax.And, graphs: tuple[str, ...] | Diagnostic, room: Room
-    ) -> Ways | Diagnostic:
+    def _shared(self, motion: syntax.And, graphs: tuple[str, ...] | Diagnostic, room: Room) -> Ways | Diagnostic:
         """Return the ways to share an `and` out over different graphs."""
         layers: list[dict[str, Layer]] = []
         for operand in flattened(motion):

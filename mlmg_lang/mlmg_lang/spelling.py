@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import unicodedata
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 
 def normal(name: str) -> str:
@@ -47,6 +47,13 @@ def is_slip_of(word: str, meant: str) -> bool:
 def listed(names: Iterable[str], last: str = "and") -> str:
     """Return names in backquotes as a sentence has them: `A`, `B` and `C`."""
     return joined((f"`{name}`" for name in names), last)
+
+
+def some(names: Sequence[str], limit: int = 6) -> str:
+    """Return names as `listed` does, but only the first of many."""
+    if len(names) <= limit:
+        return listed(names)
+    return joined([f"`{name}`" for name in names[:limit]] + [f"{len(names) - limit} more"])
 
 
 def joined(parts: Iterable[str], last: str = "and") -> str:

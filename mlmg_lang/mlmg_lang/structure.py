@@ -88,13 +88,9 @@ class _Structure:
 
     def _not_yet(self, span: Span, what: str = "a definition") -> Diagnostic:
         shown = what if what.startswith("a ") else f"`{what}`"
-        return Diagnostic(
-            "MS060", f"{shown} is part of Motion Script, but this version does not play it yet", span
-        )
+        return Diagnostic("MS060", f"{shown} is part of Motion Script, but this version does not play it yet", span)
 
-    def _command(
-        self, command: syntax.Command, parameters: tuple[syntax.Parameter, ...] = ()
-    ) -> Iterator[Diagnostic]:
+    def _command(self, command: syntax.Command, parameters: tuple[syntax.Parameter, ...] = ()) -> Iterator[Diagnostic]:
         yield from self.motion(command.motion, sub=False)
         if command.once is not None:
             yield self._not_yet(command.once, "once")
@@ -120,9 +116,7 @@ class _Structure:
         if float(amount.number) == 0 or (seconds is not None and seconds < shortest):
             message = "this lasts no time" if float(amount.number) == 0 else "this is shorter than a frame"
             fix = Fix(whole, "", safe=False)
-            yield Diagnostic(
-                "MS045", message, amount.span, help="leave it out, or give it time", fixes=(fix,)
-            )
+            yield Diagnostic("MS045", message, amount.span, help="leave it out, or give it time", fixes=(fix,))
         elif (seconds if seconds is not None else float(amount.number)) > LONGEST_S:
             yield Diagnostic("MS046", "this is longer than a day", amount.span, help="check number and unit")
 

@@ -91,9 +91,7 @@ def _unit_unknown(stuck: Stuck, token: Token) -> Mistake:
     meant = replaced(stuck, stuck.at, replace(token, type="UNIT", text="sec"))
     likely = nearest(token.text, UNITS, limit=1)
     if not likely:
-        return mistake(
-            "MS016", message, token.span, "the units are sec, ms, min, frames and cycles", meant=meant
-        )
+        return mistake("MS016", message, token.span, "the units are sec, ms, min, frames and cycles", meant=meant)
     unit = UNITS[likely[0]]
     fix = Fix(token.span, unit, safe=False)
     return mistake("MS016", message, token.span, f"did you mean `{unit}`?", fix, meant=meant)

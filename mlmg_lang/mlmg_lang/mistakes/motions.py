@@ -58,9 +58,7 @@ def parenthesis(stuck: Stuck) -> Mistake | None:
         return None
     meant = (*stuck.tokens, Token("RIGHT", ")", stuck.span))
     fix = Fix(stuck.span, ")", safe=False)
-    return mistake(
-        "MS012", "this `(` is never closed", opened[-1].span, "write `)` where it ends", fix, meant=meant
-    )
+    return mistake("MS012", "this `(` is never closed", opened[-1].span, "write `)` where it ends", fix, meant=meant)
 
 
 def _open(tokens: Sequence[Token]) -> list[Token]:
