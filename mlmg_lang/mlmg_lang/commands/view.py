@@ -246,6 +246,6 @@ def _write_gif(scene: Scene, output: Path, frames: slice | None) -> None:
     if len(shown) < len(part):
         seconds, whole = len(shown) * scene.frame_time_s, len(part) * scene.frame_time_s
         tell(
-            f"mlmg view: {output}: the first {seconds:.0f} s of {whole:.0f} s are shown; "
+            f"mlmg view: {output}: the first {seconds:.2g} s of {whole:.2g} s are shown; "
             f"--frames {shown.stop}:{part.stop} shows the rest"
         )

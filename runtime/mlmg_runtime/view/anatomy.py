@@ -11,12 +11,8 @@ from functools import cached_property
 
 from mlmg_runtime.view.points import Points
 
-_FULL_SHARE = (
-    0.5  # A branch at least half as long as the longest beside it is a limb; a shorter one is an extra.
-)
-_UPPER_SHARE = (
-    0.8  # The first bone nearly as long as the longest is the upper arm, what comes before it the shoulder.
-)
+_FULL_SHARE = 0.5  # A branch at least half as long as the longest beside it is a limb; a shorter one is an extra.
+_UPPER_SHARE = 0.8  # The first bone nearly as long as the longest is the upper arm, what comes before it the shoulder.
 
 
 @dataclass(frozen=True, slots=True)

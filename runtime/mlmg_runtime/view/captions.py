@@ -94,9 +94,7 @@ def read_story(path: str | Path, n_frames: int) -> Story:
         line = getattr(error, "lineno", None)
         raise ReportError(path, line, f"expected the report of a run as JSON, found {error}") from error
     if not is_report(content):
-        raise ReportError(
-            path, None, 'expected the report of a run, with "n_frames", "commands" and "tracks"'
-        )
+        raise ReportError(path, None, 'expected the report of a run, with "n_frames", "commands" and "tracks"')
     if content["n_frames"] != n_frames:
         message = f"expected the report of a motion of {n_frames} frames, found one of {content['n_frames']}"
         raise ReportError(path, None, message)
@@ -116,8 +114,7 @@ def story_from_report(report: Mapping[str, Any]) -> Story:
         for entry in report["commands"]
     )
     tracks = tuple(
-        Track(str(graph), tuple(_stretch(entry) for entry in entries))
-        for graph, entries in report["tracks"].items()
+        Track(str(graph), tuple(_stretch(entry) for entry in entries)) for graph, entries in report["tracks"].items()
     )
     joints = tuple((str(graph), tuple(map(str, names))) for graph, names in report.get("joints", {}).items())
     return Story(commands, tracks, joints)

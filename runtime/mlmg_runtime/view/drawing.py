@@ -20,9 +20,7 @@ if TYPE_CHECKING:
 Rgb: TypeAlias = tuple[int, int, int]
 
 
-def draw(
-    scene: Scene, frame: int, studio: Studio, target: FloatArray, tints: Mapping[int, Rgb] | None = None
-) -> Image:
+def draw(scene: Scene, frame: int, studio: Studio, target: FloatArray, tints: Mapping[int, Rgb] | None = None) -> Image:
     """Return a picture of one frame.
 
     Parameters
@@ -35,9 +33,7 @@ def draw(
     balls = [ball for capsule in scene.capsules for ball in (capsule.first, capsule.second)]
     centres = ball_centres(scene.positions[frame], balls).reshape(-1, 2, 3)
     radii = np.array([ball.radius for ball in balls]).reshape(-1, 2)
-    colours = np.array(
-        [(tints or {}).get(capsule.joint, BODY) for capsule in scene.capsules], dtype=np.float32
-    )
+    colours = np.array([(tints or {}).get(capsule.joint, BODY) for capsule in scene.capsules], dtype=np.float32)
     image = floor(studio, target, centres, radii)
     body = solid(studio, studio.eye(target), centres, radii, colours)
     rows, columns = body.cover.shape

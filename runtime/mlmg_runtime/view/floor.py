@@ -43,10 +43,7 @@ def floor(studio: Studio, target: FloatArray, centres: FloatArray, radii: FloatA
     lit = (1.0 - away) ** 2 * (1.0 + 2.0 * away)
     pixel = t / np.float32(studio.focal)
     lines = np.maximum(
-        *(
-            _line(at + np.float32(target[axis]), pixel * _stretch(studio, way, axis))
-            for at, axis in ((x, 0), (z, 2))
-        )
+        *(_line(at + np.float32(target[axis]), pixel * _stretch(studio, way, axis)) for at, axis in ((x, 0), (z, 2)))
     )
     shadow, contact = _shadow_sheet(studio, target, centres, radii), _contact_sheet(target, centres, radii)
     dark = np.maximum(_SHADOW * _on_sheet(shadow, x, z), _CONTACT * _on_sheet(contact, x, z))

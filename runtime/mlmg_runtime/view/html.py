@@ -88,10 +88,7 @@ def _scene(scene: Scene) -> dict[str, Any]:
             {"text": command.text, "begin": command.begin, "arrive": command.arrive, "end": command.end}
             for command in scene.story.commands
         ],
-        "tracks": [
-            _track(track, scene.joints_of_graphs.get(track.graph, frozenset()))
-            for track in scene.story.tracks
-        ],
+        "tracks": [_track(track, scene.joints_of_graphs.get(track.graph, frozenset())) for track in scene.story.tracks],
     }
 
 

@@ -38,9 +38,7 @@ def ankle(leg: tuple[int, ...], points: Points) -> int:
     return leg[max(min(upper + 2, len(leg) - 2), 0)]
 
 
-def with_heels(
-    points: Points, anatomy: Anatomy, rotation: FloatArray, depth: float
-) -> tuple[Points, tuple[int, ...]]:
+def with_heels(points: Points, anatomy: Anatomy, rotation: FloatArray, depth: float) -> tuple[Points, tuple[int, ...]]:
     """Return the points with a heel for each leg, and which they are.
 
     A heel moves with the foot; where the foot stands, it is as low as the toes, and `depth` behind the ankle.
@@ -75,9 +73,7 @@ def with_jaw(
     return _with_rigid_point(points, joint, rotation, jaw, everywhere), len(points.parents)
 
 
-def _with_rigid_point(
-    points: Points, joint: int, rotation: FloatArray, step: FloatArray, known: BoolArray
-) -> Points:
+def _with_rigid_point(points: Points, joint: int, rotation: FloatArray, step: FloatArray, known: BoolArray) -> Points:
     """Return the points with one that moves with a joint, a `step` away from it in the frames `known`."""
     turn = rotation[:, joint]
     local = np.median(rotations.rotate(rotations.inverse(turn[known]), step[known]), axis=0)

@@ -55,9 +55,7 @@ def body_height(points: Points, anatomy: Anatomy) -> float:
     return 1.12 * (leg + spine)
 
 
-def mannequin(
-    points: Points, anatomy: Anatomy, heels: tuple[int, ...], jaw: int | None
-) -> tuple[Capsule, ...]:
+def mannequin(points: Points, anatomy: Anatomy, heels: tuple[int, ...], jaw: int | None) -> tuple[Capsule, ...]:
     """Return the capsules of a body.
 
     Parameters
@@ -141,9 +139,7 @@ class _Builder:
             if length < _BULGE_LENGTH * self.size or parent not in self.radii:
                 yield Capsule(first, last, parent)
                 continue
-            middle = Ball(
-                parent, point, _BULGE_AT, _BULGE * (first.radius + _BULGE_AT * (last.radius - first.radius))
-            )
+            middle = Ball(parent, point, _BULGE_AT, _BULGE * (first.radius + _BULGE_AT * (last.radius - first.radius)))
             yield Capsule(first, middle, parent)
             yield Capsule(middle, last, parent)
 

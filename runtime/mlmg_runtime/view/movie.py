@@ -64,12 +64,11 @@ def write_gif(
     studio = studio_for(scene, SIZE, np.arange(scene.n_frames))
     picture = partial(_picture, scene, studio, camera_path(scene))
     palette = _palette(picture, moments)
+    durations_ms = _durations_ms(len(moments), _picture_time_s(scene.frame_time_s))
     pool = ThreadPoolExecutor()
     try:
-        pictures = pool.map(
-            lambda frame: picture(frame).quantize(palette=palette, dither=Dither.NONE), moments
-        )
-        _save(path, _told(pictures, len(moments), progress), len(moments))
+        pictures = pool.map(lambda frame: picture(frame).quantize(palette=palette, dither=Dither.NONE), moments)
+        _save(path, _told(pictures, len(moments), progress), durations_ms)
     finally:
         pool.shutdown(cancel_futures=True)
     return shown
@@ -84,8 +83,7 @@ def _told(
         yield picture
 
 
-def _save(path: str | Path, pictures: Iterator[Image], n_pictures: int) -> None:
-    durations_ms = _durations_ms(n_pictures)
+def _save(path: str | Path, pictures: Iterator[Image], durations_ms: list[int]) -> None:
     first = next(pictures)
     with atomic_output(path) as beside:
         first.save(beside, format="GIF", save_all=True, append_images=pictures, loop=0, duration=durations_ms)
@@ -93,13 +91,17 @@ def _save(path: str | Path, pictures: Iterator[Image], n_pictures: int) -> None:
 
 def _moments(shown: range, frame_time_s: float) -> list[int]:
     """Return the frames that are pictured: as many a second as the movie has, or all if there are fewer."""
-    step = max(1.0 / (RATE * frame_time_s), 1.0)
-    return [shown[int(at)] for at in np.arange(0, len(shown), step)]
+    step = _picture_time_s(frame_time_s) / frame_time_s
+    return [shown[int(at)] for at in np.arange(0, len(shown) - 1e-6, step)]
 
 
-def _durations_ms(n_pictures: int) -> list[int]:
+def _picture_time_s(frame_time_s: float) -> float:
+    return max(1.0 / RATE, frame_time_s)
+
+
+def _durations_ms(n_pictures: int, picture_time_s: float) -> list[int]:
     """Return how long each picture stays: whole hundredths of a second, as GIF wants, that add up right."""
-    ends = np.round(100.0 * np.arange(n_pictures + 1) / RATE).astype(int)
+    ends = np.round(100.0 * picture_time_s * np.arange(n_pictures + 1)).astype(int)
     return [int(step) for step in 10 * np.diff(ends)]
 
 

@@ -43,11 +43,7 @@ def points_from_transforms(skeleton: Skeleton, rotation: FloatArray, position: F
     rotation : array, shape (n_frames, n_joints, 4). In the world, unit quaternions.
     position : array, shape (n_frames, n_joints, 3). In the world.
     """
-    offsets = {
-        joint: _tip_offset(skeleton, joint)
-        for joint, children in enumerate(skeleton.children)
-        if not children
-    }
+    offsets = {joint: _tip_offset(skeleton, joint) for joint, children in enumerate(skeleton.children) if not children}
     tips = [position[:, j] + rotations.rotate(rotation[:, j], offset) for j, offset in offsets.items()]
     positions = np.concatenate((position, *(tip[:, None] for tip in tips)), axis=1)
     positions[:, : skeleton.travel] = positions[:, skeleton.travel : skeleton.travel + 1]

@@ -22,7 +22,7 @@ Float32Array: TypeAlias = NDArray[np.float32]
 
 # Metres in one unit of length, the likeliest first; a plausible height tells which one a file is in.
 _UNITS_M = (1.0, 0.01, 0.0254, 0.001, 0.1, 0.3048)
-_PLAUSIBLE_M = (1.4, 2.05)
+_PLAUSIBLE_M = (1.0, 2.4)
 _GROUND_QUANTILE = 0.05
 
 
@@ -90,13 +90,9 @@ def scene_from_bvh(bvh: Bvh, name: str, *, up: str = "y", story: Story | None = 
     jaw = None
     if anatomy.is_human:
         size = body_height(points, anatomy) / BODY_HEIGHT
-        chin = skull_share(points, anatomy) - 0.055 * size / max(
-            float(points.lengths[anatomy.head[-1]]), 1e-6
-        )
+        chin = skull_share(points, anatomy) - 0.055 * size / max(float(points.lengths[anatomy.head[-1]]), 1e-6)
         points, heels = landmarks.with_heels(points, anatomy, rotation, 0.045 * size)
-        points, jaw = landmarks.with_jaw(
-            points, anatomy, rotation, forward=forward, share=chin, depth=0.036 * size
-        )
+        points, jaw = landmarks.with_jaw(points, anatomy, rotation, forward=forward, share=chin, depth=0.036 * size)
     capsules = mannequin(points, anatomy, heels, jaw)
     return Scene(
         name=name,
@@ -135,11 +131,7 @@ def _on_the_ground(positions: FloatArray, capsules: tuple[Capsule, ...]) -> Floa
     """Return positions moved up or down so that the body's lowest ball, bar outliers, is on y = 0."""
     balls = [ball for capsule in capsules for ball in (capsule.first, capsule.second)]
     radii = np.array([ball.radius for ball in balls])
-    lowest = (
-        (ball_centres(positions, balls)[..., 1] - radii).min(axis=1)
-        if balls
-        else positions[..., 1].min(axis=1)
-    )
+    lowest = (ball_centres(positions, balls)[..., 1] - radii).min(axis=1) if balls else positions[..., 1].min(axis=1)
     moved = positions - np.array([0.0, np.quantile(lowest, _GROUND_QUANTILE), 0.0])
     result: Float32Array = moved.astype(np.float32)
     result.setflags(write=False)
@@ -147,6 +139,4 @@ def _on_the_ground(positions: FloatArray, capsules: tuple[Capsule, ...]) -> Floa
 
 
 def _bones(points: Points, travel: int, n_points: int) -> tuple[tuple[int, int], ...]:
-    return tuple(
-        (points.parents[point], point) for point in range(travel + 1, n_points) if points.lengths[point] > 0.0
-    )
+    return tuple((points.parents[point], point) for point in range(travel + 1, n_points) if points.lengths[point] > 0.0)

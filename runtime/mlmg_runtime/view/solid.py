@@ -42,9 +42,7 @@ class _Hits:
     capsule: NDArray[np.int32]
 
 
-def solid(
-    studio: Studio, eye: FloatArray, centres: FloatArray, radii: FloatArray, colours: Float32Array
-) -> Solid:
+def solid(studio: Studio, eye: FloatArray, centres: FloatArray, radii: FloatArray, colours: Float32Array) -> Solid:
     """Return capsules as seen from `eye`, lit.
 
     Parameters
@@ -66,9 +64,7 @@ def solid(
     shown = np.isfinite(hits.depth)
     colour = np.zeros((*shown.shape, 3), dtype=np.float32)
     colour[shown] = _shade(studio, rays, hits, shown, colours)
-    return Solid(
-        int(left), int(top), _reduced(colour, n), _reduced(shown[..., None].astype(np.float32), n)[..., 0]
-    )
+    return Solid(int(left), int(top), _reduced(colour, n), _reduced(shown[..., None].astype(np.float32), n)[..., 0])
 
 
 def _boxes(studio: Studio, centres: FloatArray, radii: FloatArray) -> NDArray[np.int64]:
@@ -99,9 +95,7 @@ def _hits(
     radii: FloatArray,
 ) -> _Hits:
     shape = rays.shape[:2]
-    hits = _Hits(
-        np.full(shape, np.inf, np.float32), np.zeros((*shape, 3), np.float32), np.zeros(shape, np.int32)
-    )
+    hits = _Hits(np.full(shape, np.inf, np.float32), np.zeros((*shape, 3), np.float32), np.zeros(shape, np.int32))
     for index in kept:
         left, top, right, bottom = boxes[index]
         box = np.s_[top:bottom, left:right]
@@ -129,9 +123,9 @@ def cut(rays: Float32Array, ends: FloatArray, radii: FloatArray) -> tuple[Float3
     near = np.where(closer, other, near)
     normal = np.where(closer[..., None], other_normal, normal)
     length = float(np.linalg.norm(second - first))
-    sine = (r1 - r2) / max(length, 1e-9)
-    if abs(sine) >= 0.999:
+    if length <= 1.001 * abs(r1 - r2) + 1e-6:
         return near, normal
+    sine = (r1 - r2) / length
     axis = (second - first) / np.float32(length)
     cosine_2 = 1.0 - sine * sine
     along = rays @ axis
@@ -140,19 +134,16 @@ def cut(rays: Float32Array, ends: FloatArray, radii: FloatArray) -> tuple[Float3
     b = -cosine_2 * (rays @ first) + (sine * r1 - height) * along
     c = cosine_2 * float(first @ first) - height**2 - r1 * r1 + 2.0 * sine * r1 * height
     inside = b * b - a * c
-    steep = a > 1e-4
-    t = (-b - np.sqrt(np.maximum(inside, 0.0))) / np.where(steep, a, 1.0)
+    # The nearer root, (-b - sqrt) / a, in the form that holds for a = 0 too: a ray along the side.
+    below = np.sqrt(np.maximum(inside, 0.0)) - b
+    t = c / np.where(below > 1e-9, below, 1.0)
     y = height + t * along
-    side = steep & (inside > 0.0) & (t > _NEAR) & (y > r1 * sine) & (y < length + r2 * sine) & (t <= near)
+    side = (below > 1e-9) & (inside > 0.0) & (t > _NEAR) & (y > r1 * sine) & (y < length + r2 * sine) & (t <= near)
     away = t[..., None] * rays - first - y[..., None] * axis
     shown_sine = sine if abs(sine) > _GENTLE_SLOPE else 0.0
-    away *= np.float32(np.sqrt(1.0 - shown_sine**2)) / np.maximum(
-        np.linalg.norm(away, axis=-1, keepdims=True), 1e-9
-    )
+    away *= np.float32(np.sqrt(1.0 - shown_sine**2)) / np.maximum(np.linalg.norm(away, axis=-1, keepdims=True), 1e-9)
     away += np.float32(shown_sine) * axis
-    return np.where(side, t, near).astype(np.float32), np.where(side[..., None], away, normal).astype(
-        np.float32
-    )
+    return np.where(side, t, near).astype(np.float32), np.where(side[..., None], away, normal).astype(np.float32)
 
 
 def _cut_ball(rays: Float32Array, centre: Float32Array, radius: float) -> tuple[Float32Array, Float32Array]:
@@ -172,9 +163,7 @@ def _shade(
     sky = 0.5 + 0.5 * normal[:, 1]
     facing = np.clip(-np.sum(normal * rays[shown], axis=-1), 0.0, 1.0)
     rim = (1.0 - facing) ** 3 * (0.35 + 0.65 * sky)
-    light = (0.20 + 0.24 * sky + 0.62 * key) * (
-        1.0 - 0.55 * _crevices(hits.depth, shown, 3 * studio.oversampling)
-    )
+    light = (0.20 + 0.24 * sky + 0.62 * key) * (1.0 - 0.55 * _crevices(hits.depth, shown, 3 * studio.oversampling))
     return np.asarray(colours[hits.capsule[shown]] * light[:, None] + 34.0 * rim[:, None], dtype=np.float32)
 
 

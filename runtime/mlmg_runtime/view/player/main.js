@@ -171,7 +171,8 @@ class Player {
     const pixels = Math.min(devicePixelRatio || 1, 2);
     const { clientWidth: width, clientHeight: height } = this.canvas;
     if (!width || !height) return;
-    [this.canvas.width, this.canvas.height] = [Math.round(width * pixels), Math.round(height * pixels)];
+    const size = [Math.round(width * pixels), Math.round(height * pixels)];
+    if (this.canvas.width !== size[0] || this.canvas.height !== size[1]) [this.canvas.width, this.canvas.height] = size;
     for (const motion of this.motions) motion.moveTo(this.time, this.playing);
     this.renderer.clear(this.canvas.width, this.canvas.height);
     const boxes = this.boxes(width, height);
