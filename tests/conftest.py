@@ -1,4 +1,4 @@
-"""What all tests share: the way to the real clips."""
+"""What all tests share: the way to the real clips, and the flag that rewrites golden files."""
 
 from pathlib import Path
 
@@ -11,6 +11,10 @@ from mlmg_runtime.library import Library, open_library
 # A machine shared with others is slow at times; how long an example takes is no part of a test.
 settings.register_profile("mlmg", deadline=None)
 settings.load_profile("mlmg")
+
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    parser.addoption("--update-golden", action="store_true", help="rewrite the files in tests/golden and tests/invalid")
 
 
 @pytest.fixture(scope="session")

@@ -110,17 +110,22 @@ def _parts(motion: syntax.Motion, scope: Scope) -> Iterator[syntax.Motion]:
 
 
 def _qualified(node: syntax.Qualified, scope: Scope) -> Iterator[Unbound]:
-    wrong = list(graph_name(node.graph, scope))
-    if isinstance(node.motion, syntax.Reference):
-        name, names = node.motion.name, scope.names
-        if wrong and names.graph(name.text) is not None and names.places(node.graph.text):
-            yield Unbound(_swapped(node, names))
-            return
-        inner = list(_motion_name(name, scope, on=names.graph(node.graph.text)))
-        if wrong and is_shouted(name) and inner and not is_shouted(node.graph):
-            wrong = []
-        wrong += inner
-    yield from wrong
+    """Yield what is wrong with `GRAPH NAME`; the two names tell together what was meant."""
+    graph, names = node.graph, scope.names
+    wrong = list(graph_name(graph, scope))
+    if not isinstance(node.motion, syntax.Reference):
+        yield from wrong
+        return
+    name = node.motion.name
+    inner = list(_motion_name(name, scope, on=names.graph(graph.text)))
+    if wrong and names.graph(name.text) is not None and names.places(graph.text):
+        yield Unbound(_swapped(node, names))
+    elif wrong and is_shouted(graph):
+        yield from wrong
+    elif wrong and inner and is_shouted(name):
+        yield from inner
+    else:
+        yield from (*wrong, *inner)
 
 
 def _called(node: syntax.Call, name: syntax.Name, scope: Scope) -> Iterator[Unbound]:
@@ -171,10 +176,9 @@ def _place(word: str, names: Names, on: str | None) -> str:
 
 
 def _all_names(names: Names) -> str | None:
-    known = names.spellings()
-    if not known or len(known) > _MAX_LISTED:
-        return None
-    return f"there are {listed(known)}"
+    """Return which tags there are, or motions if there are no tags, unless they are many."""
+    known = names.tags() or names.spellings()
+    return f"there are {listed(known)}" if 0 < len(known) <= _MAX_LISTED else None
 
 
 def _unknown_graph(name: syntax.Name, names: Names) -> Diagnostic:

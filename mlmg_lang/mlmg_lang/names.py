@@ -144,6 +144,11 @@ class Names:
         entries = self._names[graph].exact.values()
         return tuple(entry.name for entry in sorted(entries, key=lambda entry: entry.kind is Kind.MOTION))
 
+    def tags(self) -> tuple[str, ...]:
+        """Return every tag, once."""
+        entries = (entry for index in self._names.values() for entry in index.exact.values())
+        return tuple(dict.fromkeys(entry.name for entry in entries if entry.kind is Kind.TAG))
+
     def spellings(self) -> tuple[str, ...]:
         """Return every motion and tag, once."""
         return tuple(dict.fromkeys(name for graph in self.graphs for name in self.spellings_on(graph)))

@@ -107,9 +107,10 @@ class _Reader:
         if len(self.diagnostics) >= MAX_MISTAKES:
             self._give_up(span)
             return syntax.Broken(span)
-        if _depth(tokens) > MAX_DEPTH:
-            message = f"this is nested more than {MAX_DEPTH} deep"
-            self._say("MS005", message, span, "take out parentheses and `not` that say nothing")
+        deep = _too_deep(tokens)
+        if deep is not None:
+            message = f"parentheses and `not` are nested more than {MAX_DEPTH} deep here"
+            self._say("MS005", message, deep.span, "take out those that say nothing")
             return syntax.Broken(span)
         return self._mended(tuple(_as_names(tokens))) or syntax.Broken(span)
 
@@ -148,23 +149,23 @@ def _as_names(tokens: Iterable[Token]) -> Iterable[Token]:
     return (replace(token, type="STRING") if token.type == "UNCLOSED" else token for token in tokens)
 
 
-def _depth(tokens: Iterable[Token]) -> int:
-    """Return how deep parentheses and `not` are nested in each other."""
-    deepest = depth = nots = 0
+def _too_deep(tokens: Iterable[Token]) -> Token | None:
+    """Return the first parenthesis or `not` that is nested too deeply in others, if there is one."""
+    depth = nots = 0
     outside: list[int] = []
     for token in tokens:
+        if token.type in ("NOT", "LEFT"):
+            depth += 1
+            if depth > MAX_DEPTH:
+                return token
         if token.type == "NOT":
             nots += 1
-            depth += 1
         elif token.type == "LEFT":
             outside.append(nots)
             nots = 0
-            depth += 1
         else:
             depth -= nots
             nots = 0
             if token.type == "RIGHT" and outside:
-                depth -= 1 + outside[-1]
-                outside.pop()
-        deepest = max(deepest, depth)
-    return deepest
+                depth -= 1 + outside.pop()
+    return None

@@ -69,14 +69,14 @@ class _Structure:
         for item in items:
             match item:
                 case syntax.Let() | syntax.Use():
-                    yield self._not_yet(item.span) if top else _nested(item)
+                    yield _definition_not_yet(item) if top else _nested(item)
                     if isinstance(item, syntax.Let):
                         yield from self._command(item.command, item.parameters or ())
                 case syntax.Repeat(head, body):
-                    yield self._not_yet(head.span, "repeat")
+                    yield _not_yet(head.span, "repeat")
                     yield from self.body(body)
                 case syntax.Choose(head, branches):
-                    yield self._not_yet(head.span, "choose")
+                    yield _not_yet(head.span, "choose")
                     for branch in branches:
                         yield from self.body(branch.body)
                 case syntax.Command():
@@ -86,14 +86,10 @@ class _Structure:
                 case syntax.End(graph) if is_sub(graph):
                     yield _misplaced_sub(graph)
 
-    def _not_yet(self, span: Span, what: str = "a definition") -> Diagnostic:
-        shown = what if what.startswith("a ") else f"`{what}`"
-        return Diagnostic("MS060", f"{shown} is part of Motion Script, but this version does not play it yet", span)
-
     def _command(self, command: syntax.Command, parameters: tuple[syntax.Parameter, ...] = ()) -> Iterator[Diagnostic]:
         yield from self.motion(command.motion, sub=False)
         if command.once is not None:
-            yield self._not_yet(command.once, "once")
+            yield _not_yet(command.once, "once")
         if command.duration is not None:
             gap = Span(command.motion.span.end, command.duration.span.end)
             yield from self._duration(command.duration, parameters, gap)
@@ -109,7 +105,7 @@ class _Structure:
                 yield _no_number(amount)
             return
         if unit_of(amount) == "cycles":
-            yield self._not_yet(amount.span, "cycles")
+            yield _not_yet(amount.span, "cycles")
             return
         seconds = seconds_from_quantity(amount, self.frame_rate)
         shortest = 0.5 / self.frame_rate if self.frame_rate is not None else 0.0
@@ -168,6 +164,17 @@ class _Structure:
         yield Diagnostic("MS028", message, call.span, help=advice)
 
 
+def _not_yet(span: Span, word: str) -> Diagnostic:
+    message = f"`{word}` is part of Motion Script, but this version does not play it yet"
+    return Diagnostic("MS060", message, span)
+
+
+def _definition_not_yet(item: syntax.Let | syntax.Use) -> Diagnostic:
+    if isinstance(item, syntax.Use):
+        return _not_yet(item.span, "use")
+    return _not_yet(Span(item.span.start, item.name.span.end), "let")
+
+
 def _nested(item: syntax.Let | syntax.Use) -> Diagnostic:
     word = "let" if isinstance(item, syntax.Let) else "use"
     advice = "write it outside of `repeat` and `choose`; it may stand after what uses it"
@@ -180,7 +187,7 @@ def _no_number(amount: syntax.Name) -> Diagnostic:
         unit = UNITS[amount.text]
         advice = f"write how many, as in `10 {unit}`"
         return Diagnostic("MS017", f"how many {unit}? The number is missing", amount.span, help=advice)
-    message = f"`{amount.text}` is neither a number with a unit nor a parameter of this definition"
+    message = f"`{amount.text}` is not a duration, nor a parameter of a definition that this stands in"
     return Diagnostic("MS027", message, amount.span, help="write how long, as in `10 sec`")
 
 

@@ -98,7 +98,7 @@ def head_without_body(stuck: Stuck) -> Mistake | None:
     if first.type == "REPEAT":
         advice = "write `repeat 3 { ... }`"
         if "INTEGER" in stuck.accepts:
-            message = f"`repeat` needs a whole number, found {found(stuck)}"
+            message = f"`repeat` needs a whole number after it{f', found {found(stuck)}' if stuck.left else ''}"
             return mistake("MS010", message, stuck.span, advice)
         return mistake("MS013", "the statements to repeat stand in `{ }`", stuck.span, advice)
     if first.type == "CHOOSE":
