@@ -9,7 +9,7 @@ from mlmg_runtime.view.scene import scene_from_bvh
 
 @pytest.fixture(autouse=True)
 def small(monkeypatch):
-    monkeypatch.setattr(movie, "SIZE", (240, 180))
+    monkeypatch.setattr(movie, "SIZE", (160, 120))
 
 
 def frames_of(path):
@@ -29,7 +29,7 @@ def test_a_movie_has_fifteen_pictures_a_second_and_lasts_as_long_as_the_motion(t
     shots, durations = frames_of(tmp_path / "x.gif")
     assert len(shots) == 30
     assert sum(durations) == 2000
-    assert shots[0].shape == (180, 240, 3)
+    assert shots[0].shape == (120, 160, 3)
     assert told[-1] == ("drawing", 30, 30)
 
 
@@ -39,7 +39,7 @@ def test_pictures_show_a_figure_that_moves(tmp_path, scene):
     assert len(shots) == 15
     assert (shots[0] != shots[-1]).any(axis=-1).mean() > 0.01
     # The camera follows: the figure stays in the middle, the floor moves.
-    assert all((shot[40:140, 90:150].min(axis=-1) > 110).mean() > 0.1 for shot in shots)
+    assert all((shot[26:94, 60:100].min(axis=-1) > 110).mean() > 0.1 for shot in shots)
 
 
 def test_accents_keep_their_colours(tmp_path, scene):

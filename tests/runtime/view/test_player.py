@@ -1,6 +1,8 @@
 """The player in a real browser, where there is one, in real time."""
 
+import base64
 import fcntl
+import io
 import json
 import os
 import select
@@ -9,7 +11,9 @@ import signal
 import subprocess
 import time
 
+import numpy as np
 import pytest
+from PIL import Image
 
 from mlmg_runtime.view.html import page_of
 from mlmg_runtime.view.scene import scene_from_bvh
@@ -142,6 +146,17 @@ def at_frame(browser, frame):
     browser.until(f"document.documentElement.dataset.frame === '{frame}'")
 
 
+def panes(browser):
+    """Return what the two halves of the stage look like, without the text, from 0 to 255."""
+    browser.value("document.getElementById('labels').hidden = true; 0")
+    box = json.loads(browser.value("JSON.stringify(document.getElementById('canvas').getBoundingClientRect())"))
+    shot = base64.b64decode(browser.ask("Page.captureScreenshot")["data"])
+    with Image.open(io.BytesIO(shot)) as image:
+        pixels = np.asarray(image.convert("RGB")).astype(int)[: int(box["height"]), : int(box["width"])]
+    middle = pixels.shape[1] // 2
+    return pixels[:, :middle], pixels[:, middle:]
+
+
 def text(browser, selector):
     return browser.value(f"[...document.querySelectorAll('{selector}')].map((one) => one.textContent).join('|')")
 
@@ -153,6 +168,23 @@ def test_the_player_opens_still_at_the_frame_of_its_address(player):
     assert text(player, ".pane .command") == "WALK for 1 sec|"
     assert text(player, ".pane .graphs") == "Full-BodyIdle_01 → Walk_01|"
     assert player.value("performance.getEntriesByType('resource').length") == 0
+
+
+def test_each_pane_shows_a_bright_figure_on_a_dark_floor(player):
+    left, right = panes(player)
+    for pane in (left, right):
+        bright = pane.min(axis=-1) > 120
+        _, columns = np.nonzero(bright)
+        assert 0.01 < bright.mean() < 0.3
+        assert abs(np.median(columns) / pane.shape[1] - 0.5) < 0.15
+    player.press("]", "]")
+    player.press("ArrowRight")
+    at_frame(player, 31)
+    player.value("location.hash = 'frame=45'; 0")
+    at_frame(player, 45)
+    orange = [(pane[..., 0] > pane[..., 2] + 60).mean() for pane in panes(player)]
+    assert orange[0] > 0.002
+    assert orange[1] == 0.0
 
 
 def test_keys_step_jump_and_play(player):

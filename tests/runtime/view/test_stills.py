@@ -2,8 +2,14 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from mlmg_runtime.view import stills
 from mlmg_runtime.view.scene import scene_from_bvh
 from mlmg_runtime.view.stills import evenly_spread, write_png
+
+
+@pytest.fixture(autouse=True)
+def small(monkeypatch):
+    monkeypatch.setattr(stills, "_PICTURE", (120, 180))
 
 
 def test_moments_are_spread_from_the_first_frame_to_the_last():
@@ -19,21 +25,21 @@ def pixels(path):
 
 def panels(path, n):
     image = pixels(path)
-    assert image.shape[1] == n * 250 + (n - 1) * 4
-    return [image[:, at * 254 : at * 254 + 250] for at in range(n)]
+    assert image.shape[1] == n * 124 - 4
+    return [image[:, at * 124 : at * 124 + 120] for at in range(n)]
 
 
 def test_a_strip_has_a_picture_and_a_caption_for_each_moment(tmp_path, scene):
     write_png(scene, tmp_path / "strip.png", [0, 35, 59])
     for panel in panels(tmp_path / "strip.png", 3):
-        assert (panel[:360].min(axis=-1) > 120).mean() > 0.02
-        assert (panel[360:].min(axis=-1) > 120).mean() > 0.01
+        assert (panel[:180].min(axis=-1) > 120).mean() > 0.02
+        assert (panel[180:].min(axis=-1) > 120).mean() > 0.01
 
 
 def test_the_part_that_a_graph_moves_is_coloured(tmp_path, scene):
     write_png(scene, tmp_path / "strip.png", [0, 45])
     before, during = panels(tmp_path / "strip.png", 2)
-    orange = [(panel[:360, :, 0] > panel[:360, :, 2] + 60).mean() for panel in (before, during)]
+    orange = [(panel[:180, :, 0] > panel[:180, :, 2] + 60).mean() for panel in (before, during)]
     assert orange[0] == 0.0
     assert orange[1] > 0.005
 
@@ -43,7 +49,9 @@ def test_more_than_eight_moments_go_on_in_a_second_row(tmp_path, person):
     write_png(scene, tmp_path / "strip.png", list(range(9)))
     write_png(scene, tmp_path / "row.png", [0])
     rows, row = pixels(tmp_path / "strip.png"), pixels(tmp_path / "row.png")
-    assert rows.shape == (2 * len(row), 8 * 254 - 4, 3)
+    assert rows.shape == (2 * len(row), 8 * 124 - 4, 3)
+    assert (rows[len(row) :, :120].min(axis=-1) > 120).any()
+    assert not (rows[len(row) :, 124:].min(axis=-1) > 120).any()
 
 
 def test_a_picture_that_cannot_be_written_leaves_the_old_one(tmp_path, monkeypatch, scene):

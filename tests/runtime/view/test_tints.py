@@ -1,4 +1,6 @@
+from mlmg_runtime.view.captions import story_from_report
 from mlmg_runtime.view.palette import accent
+from mlmg_runtime.view.scene import scene_from_bvh
 from mlmg_runtime.view.tints import tints_at
 
 
@@ -7,6 +9,11 @@ def test_a_part_is_coloured_while_its_graph_runs(scene):
     assert tints_at(scene, 29) == {}
     assert tints_at(scene, 45) == dict.fromkeys(joints, accent(1))
     assert tints_at(scene, 58) == {}
+
+
+def test_the_root_graph_colours_nothing(person, report):
+    story = story_from_report({**report, "joints": {"Full-Body": ["spine"]}})
+    assert tints_at(scene_from_bvh(person(), "x", story=story), 5) == {}
 
 
 def test_accents_begin_anew_when_they_are_used_up():

@@ -295,7 +295,8 @@ function start() {
   try {
     renderer = new Renderer(byId("canvas"), data.colours);
   } catch (error) {
-    fail(`This player draws with WebGL 2, which this browser does not offer (${error.message}).`, "no-webgl");
+    if (!(error instanceof NoWebGL)) throw error;
+    fail("This player draws with WebGL 2, which this browser does not offer, or which is switched off.", "no-webgl");
     return;
   }
   new Player(data, renderer);

@@ -135,11 +135,13 @@ const SHADERS = {
   ],
 };
 
+class NoWebGL extends Error {}
+
 class Renderer {
-  // Throws an Error if there is no WebGL 2.
+  // Throws NoWebGL where the browser offers none.
   constructor(canvas, colours) {
     const gl = canvas.getContext("webgl2", { antialias: true, alpha: false });
-    if (!gl) throw new Error("no WebGL 2");
+    if (!gl) throw new NoWebGL();
     this.gl = gl;
     this.colours = colours;
     this.programs = Object.fromEntries(Object.entries(SHADERS).map(([name, pair]) => [name, this.program(...pair)]));
