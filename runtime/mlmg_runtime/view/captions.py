@@ -129,10 +129,10 @@ def _text(entry: Mapping[str, Any]) -> str:
     if entry["kind"] == "clip":
         speed = float(entry.get("speed", 1.0))
         return str(entry["motion"]) if abs(speed - 1.0) < 0.005 else f"{entry['motion']} ×{speed:.2g}"
-    ends = [str(entry[key][0]) for key in ("from", "to") if entry.get(key)]
-    if len(ends) == 2 and ends[0] == ends[1]:
-        return f"{ends[0]} ↺"
-    return " → ".join(ends) if ends else str(entry.get("motion", entry["kind"]))
+    if not entry.get("from"):
+        return str(entry.get("motion", entry["kind"]))
+    before, after = str(entry["from"][0]), str(entry["to"][0]) if entry.get("to") else "parent"
+    return f"{before} ↺" if before == after else f"{before} → {after}"
 
 
 def _what_failed(error: Exception) -> str:

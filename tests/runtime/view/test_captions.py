@@ -27,7 +27,8 @@ def test_the_command_is_the_last_that_has_begun(story, frame, text):
         (35, {"Full-Body": "Walk_01 ×1.1", "Upper-Body": "Walk_01 → Talk_01"}),
         (49, {"Full-Body": "Walk_01 ×1.1", "Upper-Body": "Talk_01"}),
         (50, {"Full-Body": "Walk_01 ×1.1", "Upper-Body": "Talk_01 ↺"}),
-        (55, {"Full-Body": "Walk_01 ×1.1", "Upper-Body": "blend"}),
+        (55, {"Full-Body": "Walk_01 ×1.1", "Upper-Body": "Talk_01 → parent"}),
+        (57, {"Full-Body": "Walk_01 ×1.1", "Upper-Body": "blend"}),
         (58, {"Full-Body": "Walk_01 ×1.1"}),
     ],
 )
