@@ -114,6 +114,6 @@ class _Builder(Transformer[lark.Token, Any]):
 
 
 def _across(parts: list[Any]) -> Span:
-    """Return the span from the first part to the last."""
+    """Return the span of all parts. (In a line that was mended they may have changed places.)"""
     there = [part.span for part in parts if part is not None]
-    return Span(there[0].start, there[-1].end)
+    return Span(min(span.start for span in there), max(span.end for span in there))

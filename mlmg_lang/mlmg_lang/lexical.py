@@ -51,15 +51,16 @@ def _pieces(inside: str) -> Iterator[str]:
 
 
 def _odd_name(token: Token) -> Diagnostic:
-    wrong = tuple(dict.fromkeys(letter for letter in token.text if not f"_{letter}".isidentifier() and letter != "-"))
+    letters = dict.fromkeys(letter for letter in token.text if letter != "-")
+    wrong = [_shown(letter) for letter in letters if not f"_{letter}".isidentifier()]
+    does = f"hold {listed(wrong)}" if wrong else f"begin with `{_shown(token.text[0])}`"
     plain = unicodedata.normalize("NFKC", token.text)
     if plain != token.text and plain.isascii():
-        message = f"{listed(map(_shown, wrong or (token.text,)))}: wide letters and signs have no meaning here"
-        return Diagnostic("MS003", message, token.span, f"write `{plain}`", fixes=(Fix(token.span, plain, safe=True),))
-    message = f"a name without quotes cannot hold {listed(map(_shown, wrong))}"
-    if not wrong:
-        message = f"a name without quotes cannot begin with {_shown(token.text[0])}"
+        message = f"a name without quotes cannot {does}: wide letters and signs have no meaning here"
+        fix = Fix(token.span, plain, safe=True)
+        return Diagnostic("MS003", message, token.span, f"write `{plain}`", fixes=(fix,))
     fixes = (Fix(token.span, f'"{token.text}"', safe=True),) if token.text.isprintable() else ()
+    message = f"a name without quotes cannot {does}"
     return Diagnostic("MS003", message, token.span, "write the name in double quotes", fixes=fixes)
 
 

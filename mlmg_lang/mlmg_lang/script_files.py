@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from codecs import BOM_UTF16_BE, BOM_UTF16_LE
+from codecs import BOM_UTF8, BOM_UTF16_BE, BOM_UTF16_LE
 from pathlib import Path
 
 from mlmg_lang.diagnostics import Diagnostic
@@ -29,12 +29,12 @@ def read_script(path: str | Path) -> tuple[Source, tuple[Diagnostic, ...]]:
 
 def source_from_bytes(data: bytes, name: str) -> tuple[Source, tuple[Diagnostic, ...]]:
     """Return the text of some bytes, and a diagnostic if they are not UTF-8."""
+    body = data.removeprefix(BOM_UTF8)
     try:
-        return Source(data.decode("utf-8-sig"), name), ()
+        return Source(body.decode("utf-8"), name), ()
     except UnicodeDecodeError as error:
-        source = Source(data.decode("utf-8-sig", errors="replace"), name)
-        at = source.text.find("\ufffd", len(data[: error.start].decode("utf-8-sig")))
-        return source, (_not_utf8(data, error.start, at),)
+        at = len(body[: error.start].decode("utf-8"))
+        return Source(body.decode("utf-8", errors="replace"), name), (_not_utf8(body, error.start, at),)
 
 
 def _not_utf8(data: bytes, first: int, at: int) -> Diagnostic:

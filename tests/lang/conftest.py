@@ -119,6 +119,12 @@ def left_hand() -> FakeCatalog:
     return LEFT_HAND
 
 
+@pytest.fixture(scope="session")
+def left_hand_always() -> FakeCatalog:
+    """Return the same for a whole session, as tests with many examples need it."""
+    return LEFT_HAND
+
+
 @pytest.fixture
 def hands() -> FakeCatalog:
     """Return a library with two hands beside each other."""

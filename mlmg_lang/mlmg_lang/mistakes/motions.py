@@ -40,6 +40,8 @@ def not_after_graph(stuck: Stuck) -> Mistake | None:
     word, graph = stuck.token(0), stuck.token(-1)
     if word is None or word.type != "NOT" or graph is None or graph.type not in NAMES:
         return None
+    if stuck.type(1) not in NAMES | {"LEFT"}:
+        return None
     span, name = across(graph, word), graph.text
     advice = f"if `{name}` is a graph, write `not {name} ...`; if it is a motion, `{name} and not ...`"
     meant = replaced(stuck, stuck.at - 1, word, graph, n=2)

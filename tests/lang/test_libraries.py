@@ -1,0 +1,56 @@
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from mlmg_lang.libraries import find_library
+from mlmg_runtime.errors import ConfigurationError
+
+
+@pytest.fixture
+def project(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """Return a folder with a setting of its own and a script two folders below."""
+    monkeypatch.delenv("MLMG_LIBRARY", raising=False)
+    (tmp_path / "scenes" / "one").mkdir(parents=True)
+    (tmp_path / "mlmg.toml").write_text('library = "lib/my.mlmg"\n', encoding="utf-8")
+    return tmp_path
+
+
+def test_the_option_goes_before_all(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("MLMG_LIBRARY", "from_environment.mlmg")
+    assert find_library(project / "a.ms", "option.mlmg") == Path("option.mlmg")
+
+
+def test_the_environment_goes_before_settings(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("MLMG_LIBRARY", "from_environment.mlmg")
+    assert find_library(project / "a.ms") == Path("from_environment.mlmg")
+
+
+def test_an_empty_variable_says_nothing(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("MLMG_LIBRARY", "")
+    assert find_library(project / "a.ms") == project / "lib" / "my.mlmg"
+
+
+def test_the_nearest_settings_above_the_script_count(project: Path) -> None:
+    script = project / "scenes" / "one" / "a.ms"
+    assert find_library(script) == project / "lib" / "my.mlmg"
+    (project / "scenes" / "mlmg.toml").write_text('library = "other.mlmg"', encoding="utf-8")
+    assert find_library(script) == project / "scenes" / "other.mlmg"
+
+
+def test_standard_input_stands_in_the_current_folder(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(project / "scenes")
+    assert find_library("-") == project / "lib" / "my.mlmg"
+
+
+def test_settings_need_not_name_a_library(project: Path) -> None:
+    (project / "mlmg.toml").write_text("", encoding="utf-8")
+    assert find_library(project / "a.ms") is None
+
+
+@pytest.mark.parametrize("text", ["library = 3", 'library = ""', "library = ", "library = ["])
+def test_settings_that_are_wrong_are_an_error_with_the_file(project: Path, text: str) -> None:
+    (project / "mlmg.toml").write_text(text, encoding="utf-8")
+    with pytest.raises(ConfigurationError, match=r"mlmg\.toml: "):
+        find_library(project / "a.ms")

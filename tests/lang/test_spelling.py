@@ -1,0 +1,54 @@
+from __future__ import annotations
+
+import pytest
+
+from mlmg_lang.spelling import folded, is_slip_of, joined, listed, nearest, some
+
+KNOWN = ("WALK", "TALK", "WAVE_HAND", "SWING_HAND", "Idle_01", "Music")
+
+
+@pytest.mark.parametrize(
+    ("written", "meant"),
+    [
+        ("WLAK", "WALK"),
+        ("walk", "WALK"),
+        ("WAVEHAND", "WAVE_HAND"),
+        ("SWING", "SWING_HAND"),
+        ("Idel_1", "Idle_01"),
+        ("Misuc", "Music"),
+    ],
+)
+def test_the_nearest_name_is_the_one_meant(written: str, meant: str) -> None:
+    assert nearest(written, KNOWN)[0] == meant
+
+
+def test_a_name_like_no_other_has_none_near() -> None:
+    assert nearest("JUGGLE", KNOWN) == ()
+    assert nearest("", KNOWN) == ()
+    assert nearest("WALK", ()) == ()
+
+
+def test_no_more_names_are_near_than_asked_for() -> None:
+    assert nearest("Walk_1", [f"Walk_{at}" for at in range(10, 20)], limit=2) == ("Walk_10", "Walk_11")
+
+
+@pytest.mark.parametrize("word", ["whit", "wth", "wiht", "withh", "wifh"])
+def test_a_slip_is_one_letter_or_two_that_changed_places(word: str) -> None:
+    assert is_slip_of(word, "with")
+
+
+@pytest.mark.parametrize("word", ["with", "while", "and", "w"])
+def test_other_words_are_no_slips(word: str) -> None:
+    assert not is_slip_of(word, "with")
+
+
+def test_case_hyphens_and_forms_of_unicode_do_not_matter_folded() -> None:
+    assert folded("Upper-Body") == folded("UPPER_body") == "upperbody"
+    assert folded("Gr\u00fc\u00dfe") == folded("GRU\u0308SSE")
+
+
+def test_names_are_listed_as_in_a_sentence() -> None:
+    assert listed(["A"]) == "`A`"
+    assert listed(["A", "B"], "or") == "`A` or `B`"
+    assert joined(["A", "B", "C"]) == "A, B and C"
+    assert some(["A", "B", "C"], limit=2) == "`A`, `B` and 1 more"
