@@ -134,11 +134,11 @@ def cut(rays: Float32Array, ends: FloatArray, radii: FloatArray) -> tuple[Float3
     b = -cosine_2 * (rays @ first) + (sine * r1 - height) * along
     c = cosine_2 * float(first @ first) - height**2 - r1 * r1 + 2.0 * sine * r1 * height
     inside = b * b - a * c
-    # The nearer root, (-b - sqrt) / a, in the form that holds for a = 0 too: a ray along the side.
+    # Where the ray comes in, (-b - sqrt) / a, in the form that holds for a = 0 too: a ray along the side.
     below = np.sqrt(np.maximum(inside, 0.0)) - b
-    t = c / np.where(below > 1e-9, below, 1.0)
+    t = c / np.where(np.abs(below) > 1e-9, below, np.inf)
     y = height + t * along
-    side = (below > 1e-9) & (inside > 0.0) & (t > _NEAR) & (y > r1 * sine) & (y < length + r2 * sine) & (t <= near)
+    side = (inside > 0.0) & (t > _NEAR) & (y > r1 * sine) & (y < length + r2 * sine) & (t <= near)
     away = t[..., None] * rays - first - y[..., None] * axis
     shown_sine = sine if abs(sine) > _GENTLE_SLOPE else 0.0
     away *= np.float32(np.sqrt(1.0 - shown_sine**2)) / np.maximum(np.linalg.norm(away, axis=-1, keepdims=True), 1e-9)
