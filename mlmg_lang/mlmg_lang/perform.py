@@ -12,7 +12,7 @@ from mlmg_runtime.clips import bvh_from_poses, resample
 from mlmg_runtime.errors import FileError, PlayError
 from mlmg_runtime.library import Library
 from mlmg_runtime.playing.performer import Performer
-from mlmg_runtime.playing.report import tracks_from_timeline
+from mlmg_runtime.playing.report import joints_from_timeline, tracks_from_timeline
 from mlmg_runtime.playing.synthesis import synthesize
 
 
@@ -77,6 +77,7 @@ def perform(
             for entry in commands
         ],
         "tracks": tracks_from_timeline(library, timeline, rate),
+        "joints": joints_from_timeline(library, timeline),
     }
     return Performance(bvh_from_poses(library.skeleton, poses, 1.0 / rate, library.up), report)
 

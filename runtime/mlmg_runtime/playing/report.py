@@ -36,6 +36,12 @@ def tracks_from_timeline(
     return tracks
 
 
+def joints_from_timeline(library: Library, timeline: Timeline) -> dict[str, list[str]]:
+    """Return the joints' names of each graph below the root that runs in the timeline."""
+    parts = [library.by_name[name] for name in timeline.tracks if library.parent(name) is not None]
+    return {graph.name: [library.skeleton.names[joint] for joint in graph.joints] for graph in parts}
+
+
 def _clip(graph: MotionGraph, clip: Clip, interval: dict[str, int], ratio: float) -> dict[str, Any]:
     motion = {"motion": graph.motions[clip.first.motion], "clip_begin": clip.first.frame}
     return {"kind": "clip", **interval, **motion, "speed": round(clip.speed / ratio, 6)}

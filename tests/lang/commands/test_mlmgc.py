@@ -146,3 +146,10 @@ def test_two_processes_that_build_the_demo_library_at_once_do_no_harm(folder, tm
         process.stderr.close()
     assert (folder / "1.bvh").read_bytes() == (folder / "2.bvh").read_bytes()
     assert len(list((tmp_path / "cache").iterdir())) == 1
+
+
+def test_the_report_names_the_joints_of_a_part_that_runs(scene):
+    (scene / "scene.ms").write_text("Step for 1 sec\nUpper-Body TALK for 1 sec\n")
+    assert compiled("-o", "out.bvh", "--report", "out.json") == 0
+    report = json.loads((scene / "out.json").read_text())
+    assert report["joints"] == {"Upper-Body": ["Spine", "Head"]}
