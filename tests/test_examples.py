@@ -2,8 +2,9 @@
 
 from pathlib import Path
 
-import mlmg_lang
 import pytest
+
+import mlmg_lang
 
 EXAMPLES = sorted((Path(__file__).parents[1] / "examples").glob("*.ms"))
 

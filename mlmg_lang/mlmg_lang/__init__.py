@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from mlmg_lang.catalog import Catalog
     from mlmg_lang.diagnostics import Diagnostic
     from mlmg_lang.perform import Performance
-    from mlmg_lang.resolved import ResolvedPlan
+    from mlmg_lang.planning.resolved import ResolvedPlan
     from mlmg_runtime.library import Library
 
 __all__ = ["compile", "play"]

@@ -4,20 +4,20 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from mlmg_lang.case import guess_case
 from mlmg_lang.catalog import Catalog
 from mlmg_lang.diagnostics import Diagnostic, has_errors
-from mlmg_lang.names import Names
-from mlmg_lang.parse import parse
-from mlmg_lang.plan import plan
-from mlmg_lang.resolve import resolve
-from mlmg_lang.resolved import ResolvedPlan
+from mlmg_lang.parsing.case import guess_case
+from mlmg_lang.parsing.parse import parse
+from mlmg_lang.parsing.structure import check_structure
+from mlmg_lang.parsing.syntax import Script
+from mlmg_lang.parsing.tokenize import tokenize
+from mlmg_lang.parsing.tokens import Token
+from mlmg_lang.planning.names import Names
+from mlmg_lang.planning.plan import plan
+from mlmg_lang.planning.resolve import resolve
+from mlmg_lang.planning.resolved import ResolvedPlan
+from mlmg_lang.planning.typed import TypedPlan
 from mlmg_lang.source import Source
-from mlmg_lang.structure import check_structure
-from mlmg_lang.syntax import Script
-from mlmg_lang.tokenize import tokenize
-from mlmg_lang.tokens import Token
-from mlmg_lang.typed import TypedPlan
 
 
 @dataclass(frozen=True, slots=True)

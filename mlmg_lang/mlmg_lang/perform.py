@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from mlmg_lang.resolved import Command, End, ResolvedPlan, Statement, Wait
+from mlmg_lang.planning.resolved import Command, End, ResolvedPlan, Statement, Wait
 from mlmg_runtime.bvh.document import Bvh
 from mlmg_runtime.clips import bvh_from_poses, resample
 from mlmg_runtime.errors import FileError, PlayError
@@ -73,8 +73,7 @@ def perform(
         "n_frames": poses.n_frames,
         "seed": seed,
         "commands": [
-            _command_entry(plan, *entry, ratio=rate / library.frame_rate, n_frames=poses.n_frames)
-            for entry in commands
+            _command_entry(plan, *entry, ratio=rate / library.frame_rate, n_frames=poses.n_frames) for entry in commands
         ],
         "tracks": tracks_from_timeline(library, timeline, rate),
         "joints": joints_from_timeline(library, timeline),

@@ -9,19 +9,17 @@ from collections.abc import Iterable, Iterator
 from contextlib import closing, contextmanager
 from dataclasses import asdict
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from mlmg_runtime.arrays import frozen
+from mlmg_runtime.built_library import BuiltLibrary
 from mlmg_runtime.bvh.document import Joint
 from mlmg_runtime.errors import LibraryError
 from mlmg_runtime.files import atomic_output
 from mlmg_runtime.motion_graph import TRANSITION, MotionGraph
 from mlmg_runtime.skeleton import Poses, Skeleton
-
-if TYPE_CHECKING:
-    from mlmg_runtime.building.build import BuiltLibrary
 
 # "mlmg" in ASCII: says whose SQLite file this is.
 APPLICATION_ID = 0x6D6C6D67

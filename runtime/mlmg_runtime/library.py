@@ -23,7 +23,7 @@ class Library:
     skeleton : shared by all clips. up : the vertical axis that outputs have, "y" or "z".
     frame_rate : frames a second. start : the root motion to start in.
     by_name : graph -> motion graph, the root first, parents before children.
-    reports : graph -> what its building reported, see `building.build.GraphReport`.
+    reports : graph -> what its building reported, see `built_library.GraphReport`.
     warnings : what was odd in the clips.
     """
 

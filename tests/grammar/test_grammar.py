@@ -8,11 +8,11 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from mlmg_grammar import LINE, SCRIPT, grammar_text, is_name, load, reserved_words, scan
-from mlmg_lang.layout import Block, Line, lay_out
-from mlmg_lang.parse import parse
+from mlmg_lang.parsing.layout import Block, Line, lay_out
+from mlmg_lang.parsing.parse import parse
+from mlmg_lang.parsing.tokenize import tokenize
+from mlmg_lang.parsing.tokens import Token
 from mlmg_lang.source import Source, Span
-from mlmg_lang.tokenize import tokenize
-from mlmg_lang.tokens import Token
 
 WHOLE = load(starts=(SCRIPT, LINE, "unparsed"))
 RESERVED = ["with", "and", "or", "not", "for", "once", "wait", "let", "repeat", "end", "choose", "use", "to"]

@@ -10,8 +10,8 @@ from typing import Any
 import pytest
 
 from mlmg_lang.front_end import Analysis, analyse
+from mlmg_lang.parsing.tokens import Token
 from mlmg_lang.source import Source, Span
-from mlmg_lang.tokens import Token
 
 Tags = Mapping[str, tuple[str, ...]]
 

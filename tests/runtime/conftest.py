@@ -8,8 +8,9 @@ import numpy as np
 import pytest
 
 from mlmg_runtime.arrays import FloatArray
-from mlmg_runtime.building.build import BuiltLibrary, build_library
+from mlmg_runtime.building.build import build_library
 from mlmg_runtime.building.configuration import read_configuration
+from mlmg_runtime.built_library import BuiltLibrary
 from mlmg_runtime.bvh import Bvh, Joint, write
 from mlmg_runtime.database import write_database
 from mlmg_runtime.library import Library, open_library
@@ -142,9 +143,9 @@ Reach = ["REACH"]
 Wave = []
 
 [tags.Left-Arm]
-Stand = ["IDLE"]
-Reach = ["REACH"]
 Wave = ["WAVE"]
+Reach = ["REACH"]
+Stand = ["IDLE"]
 
 [tags.Right-Arm]
 Stroll = ["SWING"]

@@ -16,9 +16,7 @@ from mlmg_lang.commands.console import DONE, ProgressLine, tell
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the command's arguments."""
-    parser.add_argument(
-        "configuration", metavar="LIBRARY.toml", type=Path, help="the library's configuration"
-    )
+    parser.add_argument("configuration", metavar="LIBRARY.toml", type=Path, help="the library's configuration")
     parser.add_argument(
         "-o",
         "--output",

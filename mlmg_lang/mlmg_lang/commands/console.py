@@ -63,9 +63,7 @@ def utf8_streams() -> None:
     """Make standard input, output and error speak UTF-8, whatever the locale."""
     for stream in (sys.stdin, sys.stdout, sys.stderr):
         if hasattr(stream, "reconfigure"):
-            stream.reconfigure(
-                encoding="utf-8", errors="surrogateescape" if stream is sys.stdin else "replace"
-            )
+            stream.reconfigure(encoding="utf-8", errors="surrogateescape" if stream is sys.stdin else "replace")
 
 
 @dataclass(slots=True)

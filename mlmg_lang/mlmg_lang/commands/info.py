@@ -68,9 +68,7 @@ def _graph(library: Library, name: str) -> str:
     from mlmg_runtime.errors import LibraryError
 
     if name not in library.graphs:
-        raise LibraryError(
-            library.path, None, f"there is no graph `{name}`; there are {', '.join(library.graphs)}"
-        )
+        raise LibraryError(library.path, None, f"there is no graph `{name}`; there are {', '.join(library.graphs)}")
     return name
 
 
@@ -155,13 +153,7 @@ def _graph_lines(graph: dict[str, Any], description: dict[str, Any]) -> Iterator
     for motion, tags in graph["motions"].items():
         n_frames = description["clips"][motion]
         lost = graph["lost_frames"].get(motion)
-        note = (
-            "  cannot be led to"
-            if motion in graph["lost_motions"]
-            else f"  {lost} frames lost"
-            if lost
-            else ""
-        )
+        note = "  cannot be led to" if motion in graph["lost_motions"] else f"  {lost} frames lost" if lost else ""
         yield f"  {motion:<{width}}  {n_frames / description['frame_rate']:6.1f} s  {', '.join(tags) or '-'}{note}"
     if graph["bridges"]:
         distances = [distance for _, _, distance in graph["bridges"]]

@@ -46,9 +46,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         prog="mlmg",
         usage="mlmg COMMAND ...",
         formatter_class=argparse.RawDescriptionHelpFormatter,
-        description=_DESCRIPTION.format(
-            commands="\n".join(f"  {n:<7} {text}" for n, text in SUBCOMMANDS.items())
-        ),
+        description=_DESCRIPTION.format(commands="\n".join(f"  {n:<7} {text}" for n, text in SUBCOMMANDS.items())),
     )
     parser.add_argument("--version", action=VersionAction, nargs=0, help="show the version and leave")
     parser.add_argument("command", nargs="?", help=argparse.SUPPRESS)

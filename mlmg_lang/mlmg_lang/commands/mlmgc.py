@@ -97,9 +97,7 @@ def _run(parser: argparse.ArgumentParser, arguments: argparse.Namespace) -> int:
     if analysis.resolved is None:
         return WRONG_CONTENT
     if not analysis.resolved.statements:
-        tell(
-            f"mlmgc: error: {source.name}: there is nothing to play; expected a command such as `WALK for 10 sec`"
-        )
+        tell(f"mlmgc: error: {source.name}: there is nothing to play; expected a command such as `WALK for 10 sec`")
         return WRONG_CONTENT
     from mlmg_lang.perform import perform
 

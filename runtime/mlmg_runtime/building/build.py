@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor
-from dataclasses import dataclass
 from functools import partial
 from itertools import combinations_with_replacement
 from typing import NamedTuple
@@ -18,50 +17,15 @@ from mlmg_runtime.building.combine import graph_joints, graph_parents, overall_m
 from mlmg_runtime.building.configuration import GraphConfiguration, LibraryConfiguration, check_start
 from mlmg_runtime.building.connect import Edges, Positions, bridges
 from mlmg_runtime.building.load_clips import Clips, load_clips
+from mlmg_runtime.built_library import BuiltLibrary, GraphReport
 from mlmg_runtime.motion_graph import TRANSITION, UNREACHABLE, MotionGraph
 from mlmg_runtime.point_cloud import PointCloud, point_cloud, window_distances
-from mlmg_runtime.skeleton import Poses, Skeleton, world_positions
+from mlmg_runtime.skeleton import Skeleton, world_positions
 
 # Windows this alike, root mean square over the joints, blend without being seen; a share of the body's height.
 SMOOTH_SHARE = 0.02
 
 Progress = Callable[[str, int, int], None]
-
-
-@dataclass(frozen=True, slots=True)
-class GraphReport:
-    """What became of a graph's candidates and frames; distances are root mean squares over joints, length units.
-
-    Attributes
-    ----------
-    n_candidates : local minima found. n_transitions : transitions kept.
-    threshold : sigma as such a distance.
-    bridges : source motion, target motion and distance of each transition above the threshold.
-    lost_frames : motion -> frames that no endless walk passes, though a window of theirs could be in a transition.
-    lost_motions : motions that cannot be reached from the others.
-    """
-
-    n_candidates: int
-    n_transitions: int
-    threshold: float
-    bridges: tuple[tuple[str, str, float], ...]
-    lost_frames: Mapping[str, int]
-    lost_motions: tuple[str, ...]
-
-
-@dataclass(frozen=True, slots=True)
-class BuiltLibrary:
-    """A library in memory, ready to be written."""
-
-    skeleton: Skeleton
-    frame_rate: float
-    up: str
-    start: str
-    poses: Mapping[str, Poses]
-    graphs: tuple[MotionGraph, ...]
-    reports: tuple[GraphReport, ...]
-    sources: Mapping[str, str]
-    warnings: tuple[str, ...]
 
 
 class _PairResult(NamedTuple):

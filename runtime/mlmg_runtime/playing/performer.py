@@ -104,7 +104,7 @@ class Performer:
 
     def end(self, graph: str) -> None:
         """Give a body part, and those below it, back to the graph above."""
-        self._end([g for g in self._running if g == graph or graph in self.library.ancestors(g)])
+        self._end([graph])
 
     def play_out(self, graph: str) -> None:
         """Let the motion that drives `graph` play to its clip's last frame, everything else going on meanwhile."""
@@ -206,8 +206,12 @@ class Performer:
     # Ending parts (rule 2)
 
     def _end(self, graphs: Sequence[str]) -> None:
-        """Lead running parts back to the graphs above them, lowest first; parts of one level at the same time."""
-        depth = {graph: len(self.library.ancestors(graph)) for graph in graphs if graph in self._running}
+        """Lead running parts, and those below them, back to the graphs above them.
+
+        The lowest come first, parts of one level at the same time.
+        """
+        above = {graph: self.library.ancestors(graph) for graph in self._running}
+        depth = {graph: len(above[graph]) for graph in above if not {graph, *above[graph]}.isdisjoint(graphs)}
         for level in sorted(set(depth.values()), reverse=True):
             now = self.now
             ending = [graph for graph in depth if depth[graph] == level]

@@ -6,8 +6,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mlmg_runtime.building.build import SMOOTH_SHARE, BuiltLibrary, build_library
+from mlmg_runtime.building.build import SMOOTH_SHARE, build_library
 from mlmg_runtime.building.configuration import read_configuration
+from mlmg_runtime.built_library import BuiltLibrary
 from mlmg_runtime.database import write_database
 from mlmg_runtime.errors import ConfigurationError
 from mlmg_runtime.motion_graph import UNREACHABLE, MotionGraph, Transition

@@ -1,7 +1,7 @@
 """Slow, obvious ways to search and to build motion graphs, for comparison."""
 
 from collections import defaultdict
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -9,6 +9,7 @@ import pytest
 from hypothesis import strategies as st
 
 from mlmg_runtime.motion_graph import TRANSITION, UNREACHABLE, MotionGraph, Position, Transition
+from mlmg_runtime.playing.performer import Performer
 
 
 class Walk(NamedTuple):
@@ -36,9 +37,15 @@ def motion_graphs() -> st.SearchStrategy[MotionGraph]:
 
 
 def _soonest(
-    graph: MotionGraph, start: Position, targets: Sequence[int], allowed: Collection[int] | None = None
+    graph: MotionGraph,
+    start: Position,
+    targets: Sequence[int],
+    allowed: Collection[int] | None = None,
+    later: Mapping[int, Position] | None = None,
 ) -> Walk | None:
     """Return the walk with the fewest frames, then the least cost, then the earliest target.
+
+    `later` are other places to start from, by the number of frames after which one may.
 
     Each step shows one frame: the next of a clip, or the next of a transition's k. A state is (motion, frame)
     or (transition, frames shown of it); of the ways to a state, all equally long, the cheapest is kept.
@@ -49,7 +56,10 @@ def _soonest(
     reached = {("clip", *start): (0.0, ())}
     seen = set(reached)
     n_frames = 0
-    while reached:
+    later = later or {}
+    while reached or n_frames < max(later, default=0):
+        if n_frames in later:
+            reached[("clip", *later[n_frames])] = (0.0, ())
         n_frames += 1
         onward: dict[tuple[object, ...], tuple[float, tuple[Transition, ...]]] = {}
         arrived: list[Walk] = []
@@ -146,3 +156,46 @@ def motion_graph() -> Callable[..., MotionGraph]:
         return graph_from(n_frames, window, rows)
 
     return make
+
+
+# Random things to ask of a character.
+
+
+@pytest.fixture(scope="session")
+def ask() -> Callable[..., tuple[object, ...]]:
+    """Return a function that draws something that may be asked of a performer now, and asks it."""
+    return _ask
+
+
+def _ask(data: st.DataObject, performer: Performer) -> tuple[object, ...]:
+    call = data.draw(st.sampled_from(["bring", "bring", "bring", "hold", "end"]))
+    if call == "bring":
+        what = (call, layers := data.draw(_layers(performer)))
+        performer.bring(layers)
+    elif call == "hold":
+        what = (call, n_frames := data.draw(st.integers(0, 200)))
+        performer.hold(n_frames)
+    else:
+        what = (call, part := data.draw(st.sampled_from(performer.library.graphs[1:])))
+        performer.end(part)
+    return what
+
+
+@st.composite
+def _layers(draw: st.DrawFn, performer: Performer) -> list[tuple[str, list[str]]]:
+    """Return graphs with candidates that rule 1 allows, whichever of the candidates above are taken."""
+    library = performer.library
+    layers: list[tuple[str, list[str]]] = []
+    drivers: dict[str, set[str]] = {}
+    named: set[str] = set()
+    for graph in library.graphs:
+        parent = library.parent(graph)
+        below_named = not named.isdisjoint(library.ancestors(graph))
+        drivers[graph] = drivers[parent] if below_named else {performer.motion(graph)}
+        may_leave = parent is None or drivers[parent] <= set(library.motions(graph))
+        if may_leave and draw(st.booleans()):
+            candidates = draw(st.sets(st.sampled_from(list(library.motions(graph))), min_size=1))
+            layers.append((graph, [motion for motion in library.motions(graph) if motion in candidates]))
+            drivers[graph] = candidates
+            named.add(graph)
+    return layers or [(library.root.name, [performer.motion(library.root.name)])]

@@ -45,9 +45,7 @@ def may_take(n_source: int, n_output: int) -> bool:
     return 8 * n_output <= 10 * n_source <= 12 * n_output
 
 
-def meeting(
-    graph: MotionGraph, way: Sequence[Segment], position: Position, time: int, above: Sequence[Clip]
-) -> Return:
+def meeting(graph: MotionGraph, way: Sequence[Segment], position: Position, time: int, above: Sequence[Clip]) -> Return:
     """Return what a way back amounts to, after checking that it is one."""
     cost, bend = 0.0, 0
     for segment in way:
@@ -86,9 +84,7 @@ def cases(draw: st.DrawFn, graphs: st.SearchStrategy[MotionGraph]):
 
 @settings(max_examples=300)
 @given(data=st.data())
-def test_of_all_ways_back_the_soonest_is_taken_then_the_smoothest_then_the_least_bent(
-    data, motion_graphs
-) -> None:
+def test_of_all_ways_back_the_soonest_is_taken_then_the_smoothest_then_the_least_bent(data, motion_graphs) -> None:
     graph, position, time, above, deadline = data.draw(cases(motion_graphs))
     expected = min(all_returns(graph, position, time, above, deadline), default=None)
     way = find_return(graph, position, time, above, deadline)
@@ -104,9 +100,7 @@ def test_a_part_that_is_where_the_graph_above_is_has_come_back(motion_graph) -> 
 
 
 @pytest.mark.parametrize(("behind", "n_output"), [(2, 10), (-2, 10), (3, 15), (1, 5)])
-def test_a_part_that_is_some_frames_off_bends_its_clip_by_a_fifth(
-    motion_graph, behind: int, n_output: int
-) -> None:
+def test_a_part_that_is_some_frames_off_bends_its_clip_by_a_fifth(motion_graph, behind: int, n_output: int) -> None:
     graph = motion_graph([90], 3, [])
     way = find_return(graph, Position(0, 20 - behind), 0, [Clip(0, 60, Position(0, 20), 60)], 60)
     assert way == (Clip(0, n_output, Position(0, 20 - behind), n_output + behind),)

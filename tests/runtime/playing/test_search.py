@@ -58,9 +58,7 @@ def test_from_200_random_frames_of_a_library_the_path_is_as_short_as_any(
 
 
 @pytest.mark.mocap
-def test_from_200_random_frames_of_real_clips_the_path_is_as_short_as_any(
-    reference_library: Library, soonest
-) -> None:
+def test_from_200_random_frames_of_real_clips_the_path_is_as_short_as_any(reference_library: Library, soonest) -> None:
     draw = random.Random(1)
     for _ in range(200):
         graph = reference_library.by_name[draw.choice(["Full-Body", "Upper-Body"])]

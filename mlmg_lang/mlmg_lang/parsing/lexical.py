@@ -1,0 +1,76 @@
+"""What is wrong with a token by itself, whatever stands around it."""
+
+from __future__ import annotations
+
+import unicodedata
+from collections.abc import Iterable, Iterator
+
+from mlmg_grammar import is_name, reserved_words
+from mlmg_lang.diagnostics import Diagnostic, Fix
+from mlmg_lang.parsing.build_syntax import bad_escapes, motion_script
+from mlmg_lang.parsing.tokens import Token
+from mlmg_lang.spelling import listed
+
+
+def check_tokens(tokens: Iterable[Token]) -> Iterator[Diagnostic]:
+    """Yield what is wrong with names and quoted names."""
+    for token in tokens:
+        if token.type == "UNCLOSED":
+            yield _unclosed(token)
+        elif token.type == "STRING":
+            yield from _quoted(token)
+        elif token.type == "NAME" and not is_name(token.text):
+            yield _odd_name(token)
+
+
+def _unclosed(token: Token) -> Diagnostic:
+    message = 'this name in quotes has no closing `"`'
+    fixes = () if token.text.endswith("\\") else (Fix(token.span, f'{token.text.rstrip()}"', safe=False),)
+    return Diagnostic("MS002", message, token.span, help='write `"` where the name ends', fixes=fixes)
+
+
+def _quoted(token: Token) -> Iterator[Diagnostic]:
+    inside = token.text[1:-1]
+    wrong = bad_escapes(inside)
+    if wrong:
+        doubled = "".join(part if part not in wrong else f"\\{part}" for part in _pieces(inside))
+        message = f'{listed(wrong)} in a name in quotes: only `\\"` and `\\\\` mean something'
+        help_ = "a backslash itself is written `\\\\`"
+        yield Diagnostic("MS004", message, token.span, help_, fixes=(Fix(token.span, f'"{doubled}"', safe=False),))
+    elif not inside.strip():
+        yield Diagnostic("MS004", "a name cannot be empty", token.span, help="write a motion or tag between the quotes")
+
+
+def _pieces(inside: str) -> Iterator[str]:
+    """Yield the characters of a quoted name, escapes whole."""
+    at = 0
+    while at < len(inside):
+        size = 2 if inside[at] == "\\" else 1
+        yield inside[at : at + size]
+        at += size
+
+
+def _odd_name(token: Token) -> Diagnostic:
+    letters = dict.fromkeys(letter for letter in token.text if letter != "-")
+    wrong = [_shown(letter) for letter in letters if not f"_{letter}".isidentifier()]
+    does = f"hold {listed(wrong)}" if wrong else f"begin with `{_shown(token.text[0])}`"
+    plain = unicodedata.normalize("NFKC", token.text)
+    if plain != token.text and plain.isascii():
+        message = f"a name without quotes cannot {does}: wide letters and signs have no meaning here"
+        fix = Fix(token.span, plain, safe=True)
+        return Diagnostic("MS003", message, token.span, f"write `{plain}`", fixes=(fix,))
+    fixes = (Fix(token.span, f'"{token.text}"', safe=True),) if token.text.isprintable() else ()
+    message = f"a name without quotes cannot {does}"
+    return Diagnostic("MS003", message, token.span, "write the name in double quotes", fixes=fixes)
+
+
+def _shown(letter: str) -> str:
+    return letter if letter.isprintable() else f"U+{ord(letter[0]):04X}"
+
+
+def script_name(name: str) -> str:
+    """Return a name as a script has to write it: in quotes if it could be taken for something else."""
+    if is_name(name) and name not in reserved_words(motion_script()):
+        return name
+    escaped = name.replace("\\", "\\\\").replace('"', '\\"')
+    return f'"{escaped}"'

@@ -1,0 +1,166 @@
+"""Mistakes in durations: their numbers, their units, their place."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from mlmg_lang.diagnostics import Fix
+from mlmg_lang.parsing.amounts import SECONDS, UNITS, spelled
+from mlmg_lang.parsing.line_parser import Stuck
+from mlmg_lang.parsing.mistakes.mistake import Mistake, across, found, mistake, replaced
+from mlmg_lang.parsing.tokens import NUMBERS, OPENS_STATEMENT, Token
+from mlmg_lang.source import Span
+from mlmg_lang.spelling import nearest
+
+
+def odd_number(stuck: Stuck) -> Mistake | None:
+    """`.5 sec`, `1,5 sec`, `5. sec`, `-5 sec`."""
+    sign, before, after = stuck.token(0), stuck.token(-1), stuck.token(1)
+    if sign is None or sign.text not in (".", ",", "-", "+"):
+        return None
+    if after is not None and (after.type not in NUMBERS or after.span.start != sign.span.end):
+        after = None
+    if before is not None and before.type in NUMBERS and before.span.end == sign.span.start:
+        return _odd_fraction(stuck, before, sign, after)
+    return None if after is None else _odd_beginning(stuck, sign, after)
+
+
+def _odd_fraction(stuck: Stuck, before: Token, sign: Token, after: Token | None) -> Mistake | None:
+    """Say what is wrong with a number and a sign directly behind it."""
+    if sign.text not in (".", ",") or any(part and part.type == "DECIMAL" for part in (before, after)):
+        return None
+    right = before.text if after is None else f"{before.text}.{after.text}"
+    span = across(before, after or sign)
+    meant = replaced(stuck, stuck.at - 1, _number(right, span), n=2 if after is None else 3)
+    message = f"`{stuck.source.slice(span)}` is not a number"
+    return mistake("MS017", message, span, f"write `{right}`", Fix(span, right, safe=False), meant=meant)
+
+
+def _odd_beginning(stuck: Stuck, sign: Token, after: Token) -> Mistake | None:
+    """Say what is wrong with a sign directly before a number."""
+    span = across(sign, after)
+    if sign.text in ("-", "+"):
+        message, right = "a duration has no sign", after.text
+    elif after.type == "INTEGER":
+        message, right = f"a number begins with a digit, not with `{sign.text}`", f"0.{after.text}"
+    else:
+        return None
+    meant = replaced(stuck, stuck.at, _number(right, span), n=2)
+    return mistake("MS017", message, span, f"write `{right}`", Fix(span, right, safe=sign.text == "."),
+                   meant=meant)  # fmt: skip
+
+
+def _number(text: str, span: Span) -> Token:
+    return Token("DECIMAL" if "." in text else "INTEGER", text, span)
+
+
+def two_quantities(stuck: Stuck) -> Mistake | None:
+    """`1 min 30 sec`."""
+    first, unit, second, unit_2 = (stuck.token(offset) for offset in (-2, -1, 0, 1))
+    if first is None or unit is None or second is None or unit_2 is None:
+        return None
+    if first.type not in NUMBERS or second.type not in NUMBERS or unit_2.text not in UNITS:
+        return None
+    span, message = across(first, unit_2), "a duration is one number and one unit"
+    kept = replaced(stuck, stuck.at, n=2)
+    scales = [SECONDS.get(UNITS.get(name, "")) for name in (unit.text, unit_2.text)]
+    if scales[0] is None or scales[1] is None:
+        return mistake("MS017", message, span, "use one unit for all of it", meant=kept)
+    total = spelled(float(first.text) * scales[0] + float(second.text) * scales[1])
+    fix = Fix(span, f"{total} sec", safe=True)
+    return mistake("MS017", message, span, f"write `{total} sec`", fix, meant=kept)
+
+
+def unit_missing(stuck: Stuck) -> Mistake | None:
+    """`for 10`, `for 10 secs`."""
+    number, token = stuck.token(-1), stuck.token(0)
+    if "UNIT" not in stuck.accepts or number is None or number.type not in NUMBERS:
+        return None
+    if token is not None and token.type == "NAME":
+        return _unit_unknown(stuck, token)
+    end = Span(number.span.end, number.span.end)
+    fix = Fix(end, " sec", safe=False)
+    meant = replaced(stuck, stuck.at, Token("UNIT", "sec", end), n=0)
+    message = f"`{number.text}` of what? The unit is missing"
+    return mistake("MS016", message, number.span, f"for seconds, write `{number.text} sec`", fix, meant=meant)
+
+
+def _unit_unknown(stuck: Stuck, token: Token) -> Mistake:
+    """Say that a word after a number is no unit."""
+    message = f"`{token.text}` is not a unit of time"
+    meant = replaced(stuck, stuck.at, replace(token, type="UNIT", text="sec"))
+    likely = nearest(token.text, UNITS, limit=1)
+    if not likely:
+        return mistake("MS016", message, token.span, "the units are sec, ms, min, frames and cycles", meant=meant)
+    unit = UNITS[likely[0]]
+    fix = Fix(token.span, unit, safe=False)
+    return mistake("MS016", message, token.span, f"did you mean `{unit}`?", fix, meant=meant)
+
+
+def number_in_words(stuck: Stuck) -> Mistake | None:
+    """`for ten sec`."""
+    word = stuck.token(-1)
+    if stuck.type(0) != "UNIT" or word is None or stuck.type(-2) not in ("FOR", "WAIT"):
+        return None
+    meant = replaced(stuck, stuck.at - 1, replace(word, type="INTEGER", text="1"))
+    message = f"`{word.text}` is not a number"
+    return mistake("MS017", message, word.span, "write the number in digits", meant=meant)
+
+
+def for_missing(stuck: Stuck) -> Mistake | None:
+    """`WALK 10 sec`."""
+    number, unit = stuck.token(0), stuck.token(1)
+    if number is None or number.type not in NUMBERS or "FOR" not in stuck.accepts:
+        return None
+    if unit is None or unit.text.lower() not in UNITS:
+        return None
+    at = Span(number.span.start, number.span.start)
+    meant = replaced(stuck, stuck.at, Token("FOR", "for", at), n=0)
+    advice = f"write `for {number.text} {unit.text.lower()}`"
+    return mistake("MS010", "a duration stands after `for`", across(number, unit), advice,
+                   Fix(at, "for ", safe=True), meant=meant)  # fmt: skip
+
+
+def for_too_much(stuck: Stuck) -> Mistake | None:
+    """`wait for 10 sec`."""
+    token, after = stuck.token(0), stuck.token(1)
+    if stuck.type(-1) != "WAIT" or token is None or token.type != "FOR":
+        return None
+    gap = token.span if after is None else Span(token.span.start, after.span.start)
+    return mistake("MS010", "`wait` takes its duration without `for`", token.span, "write `wait 10 sec`",
+                   Fix(gap, "", safe=True), meant=replaced(stuck, stuck.at))  # fmt: skip
+
+
+def amount_missing(stuck: Stuck) -> Mistake | None:
+    """`WALK for`, `wait`."""
+    word = stuck.token(-1)
+    if word is None or word.type not in ("FOR", "WAIT") or "INTEGER" not in stuck.accepts:
+        return None
+    message = f"`{word.text}` needs a duration after it, found {found(stuck)}"
+    return mistake("MS017", message, word.span, f"write how long, as in `{word.text} 10 sec`")
+
+
+def for_not_last(stuck: Stuck) -> Mistake | None:
+    """`WALK for 10 sec with Upper-Body TALK`."""
+    tokens, word = stuck.tokens, stuck.token(0)
+    at = next((at for at in range(stuck.at) if tokens[at].type == "FOR"), None)
+    if word is None or word.type not in ("WITH", "AND", "OR") or at is None:
+        return None
+    if any(later.type in ("FOR", "ONCE") for later in tokens[stuck.at :]):
+        return None
+    amount = across(tokens[at], tokens[stuck.at - 1])
+    right = f"{stuck.source.slice(across(word, tokens[-1]))} {stuck.source.slice(amount)}"
+    meant = (*tokens[:at], *tokens[stuck.at :], *tokens[at : stuck.at])
+    fix = Fix(across(tokens[at], tokens[-1]), right, safe=True)
+    message = "`for` comes last, after all that is to be played"
+    return mistake("MS010", message, amount, f"write `{right}`", fix, meant=meant)
+
+
+def for_and_once(stuck: Stuck) -> Mistake | None:
+    """`WALK once for 10 sec`."""
+    if stuck.type(0) not in ("FOR", "ONCE") or stuck.tokens[0].type in OPENS_STATEMENT - {"LET"}:
+        return None
+    if not any(token.type in ("FOR", "ONCE") for token in stuck.tokens[: stuck.at]):
+        return None
+    message = "a command takes one `for` or one `once`, not two"
+    return mistake("MS010", message, stuck.span, "take one of them out", meant=stuck.tokens[: stuck.at])

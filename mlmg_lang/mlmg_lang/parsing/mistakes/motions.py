@@ -1,0 +1,97 @@
+"""Mistakes in motion expressions: something is missing, or stands in the wrong place."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from mlmg_lang.diagnostics import Fix
+from mlmg_lang.parsing.line_parser import Stuck
+from mlmg_lang.parsing.mistakes.mistake import Mistake, across, found, mistake, replaced
+from mlmg_lang.parsing.tokens import CONTINUES, JOINERS, NAMES, NUMBERS, Token
+
+
+def no_motion_after(stuck: Stuck) -> Mistake | None:
+    """A trailing `with`; `and and`; `( )`."""
+    word, token = stuck.token(-1), stuck.token(0)
+    if word is None or stuck.type(0) in NAMES | NUMBERS | {"UNKNOWN"} or "NAME" not in stuck.accepts:
+        return None
+    if word.type in JOINERS:
+        message = f"`{word.text}` needs a motion after it, found {found(stuck)}"
+        advice = f"write what comes after it, or take `{word.text}` out"
+        return mistake("MS014", message, word.span, advice, meant=replaced(stuck, stuck.at - 1))
+    if word.type == "LEFT" and token is not None and token.type == "RIGHT":
+        span = across(word, token)
+        return mistake("MS010", "there is nothing in the parentheses", span, "write a motion or tag in them")
+    return None
+
+
+def nothing_before(stuck: Stuck) -> Mistake | None:
+    """`with TALK` where there is no line to go on with; the same for `for` and `once`."""
+    word = stuck.token(0)
+    if word is None or word.type not in CONTINUES or "NAME" not in stuck.accepts:
+        return None
+    message = f"`{word.text}` needs a motion before it"
+    meant = replaced(stuck, stuck.at) if word.type in JOINERS else None
+    return mistake("MS014", message, word.span, "write a motion or tag before it", meant=meant)
+
+
+def not_after_graph(stuck: Stuck) -> Mistake | None:
+    """`Upper-Body not TALK`."""
+    word, graph = stuck.token(0), stuck.token(-1)
+    if word is None or word.type != "NOT" or graph is None or graph.type not in NAMES:
+        return None
+    if stuck.type(1) not in NAMES | {"LEFT"}:
+        return None
+    span, name = across(graph, word), graph.text
+    advice = f"if `{name}` is a graph, write `not {name} ...`; if it is a motion, `{name} and not ...`"
+    meant = replaced(stuck, stuck.at - 1, word, graph, n=2)
+    return mistake("MS010", "`not` cannot stand directly after a name", span, advice,
+                   Fix(span, f"not {name}", safe=False), meant=meant)  # fmt: skip
+
+
+def parenthesis(stuck: Stuck) -> Mistake | None:
+    """`Upper-Body (TALK and IDLE`, `TALK)`."""
+    token = stuck.token(0)
+    if token is not None and token.type == "RIGHT" and not _open(stuck.tokens[: stuck.at]):
+        return mistake("MS012", "this `)` closes nothing", token.span, "take it out, or write its `(`",
+                       Fix(token.span, "", safe=False), meant=replaced(stuck, stuck.at))  # fmt: skip
+    opened = _open(stuck.tokens)
+    if token is not None or not opened or "RIGHT" not in stuck.accepts:
+        return None
+    meant = (*stuck.tokens, Token("RIGHT", ")", stuck.span))
+    fix = Fix(stuck.span, ")", safe=False)
+    return mistake("MS012", "this `(` is never closed", opened[-1].span, "write `)` where it ends", fix, meant=meant)
+
+
+def _open(tokens: Sequence[Token]) -> list[Token]:
+    """Return the parentheses that are open after some tokens."""
+    opened: list[Token] = []
+    for token in tokens:
+        if token.type == "LEFT":
+            opened.append(token)
+        elif token.type == "RIGHT" and opened:
+            opened.pop()
+    return opened
+
+
+def three_names(stuck: Stuck) -> Mistake | None:
+    """`WALK Upper-Body TALK`: something is missing between two names."""
+    token = stuck.token(0)
+    if token is None or token.type not in NAMES or "WITH" not in stuck.accepts:
+        return None
+    message = f"`{token.text}` cannot follow here: a word is missing between these names"
+    advice = "join motions by `with`, `and` or `or`; what is played later stands on a line of its own"
+    return mistake("MS010", message, token.span, advice)
+
+
+def lone_number(stuck: Stuck) -> Mistake | None:
+    """`WALK 3`."""
+    number, before = stuck.token(0), stuck.token(-1)
+    if number is None or number.type not in NUMBERS or before is None or before.type not in NAMES:
+        return None
+    if "FOR" not in stuck.accepts:
+        return None
+    advice = f"a duration is written `for {number.text} sec`"
+    if before.type != "STRING":
+        advice += f'; a name with a space in it, `"{before.text} {number.text}"`'
+    return mistake("MS010", f"`{number.text}` cannot follow a name", number.span, advice)

@@ -1,0 +1,101 @@
+"""Mistakes in characters: signs that mean nothing, or nothing here, and names that begin with a digit."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from types import MappingProxyType
+from typing import Final
+
+from mlmg_lang.diagnostics import Fix
+from mlmg_lang.parsing.line_parser import Stuck
+from mlmg_lang.parsing.mistakes.mistake import Mistake, across, mistake, replaced
+from mlmg_lang.parsing.tokens import NAMES, NUMBERS, Token
+
+_MEANT: Final[Mapping[str, tuple[str, str]]] = MappingProxyType(
+    {
+        "&": ("AND", "and"),
+        "&&": ("AND", "and"),
+        "!": ("NOT", "not "),
+        "[": ("LEFT", "("),
+        "]": ("RIGHT", ")"),
+    }
+)
+"""Signs of other languages: the token that they stand for, and how it is written."""
+
+_ELSEWHERE: Final[Mapping[str, tuple[str, str]]] = MappingProxyType(
+    {
+        "BAR": ("`|` stands between the branches of `choose { }` alone", "for one or the other, write `or`"),
+        "EQUALS": ("`=` stands in a definition alone", "write `let NAME = ...`"),
+        "COMMA": ("`,` stands between arguments alone", "join motions by `with`, `and` or `or`"),
+        "COLON": (
+            "`:` stands after the weight of a branch alone",
+            "weights are whole numbers in `choose { }`",
+        ),
+    }
+)
+"""Signs of the language: where they belong, and what to write instead."""
+
+
+def name_from_digit(stuck: Stuck) -> Mistake | None:
+    """`3d_walk`."""
+    at = next((stuck.at + offset for offset in (0, -1) if stuck.type(offset) in NUMBERS), None)
+    if at is None or at + 1 >= len(stuck.tokens):
+        return None
+    number, name = stuck.tokens[at : at + 2]
+    if name.type != "NAME" or name.span.start != number.span.end:
+        return None
+    if at and stuck.tokens[at - 1].type in ("FOR", "WAIT", "EQUALS"):
+        return None
+    span, quoted = across(number, name), f'"{number.text}{name.text}"'
+    meant = replaced(stuck, at, Token("STRING", quoted, span), n=2)
+    message = "a name without quotes begins with a letter or `_`"
+    return mistake("MS003", message, span, f"write `{quoted}`", Fix(span, quoted, safe=True), meant=meant)
+
+
+def stray_character(stuck: Stuck) -> Mistake | None:
+    """`WALK & TALK`, `[TALK]`, `Upper--Body`."""
+    token = stuck.token(0)
+    if token is None or token.type != "UNKNOWN":
+        return None
+    shown = f"`{token.text}`" if token.text.isprintable() else f"the character U+{ord(token.text[0]):04X}"
+    message = f"{shown} means nothing in Motion Script"
+    if token.text in _MEANT:
+        kind, text = _MEANT[token.text]
+        meant = replaced(stuck, stuck.at, replace(token, type=kind, text=text))
+        fix = Fix(token.span, text, safe=False)
+        return mistake("MS003", message, token.span, f"did you mean `{text.strip()}`?", fix, meant=meant)
+    return _part_of_name(stuck, message, token) or mistake(
+        "MS003",
+        message,
+        token.span,
+        "a name with other signs than letters, digits, `_` and `-` needs double quotes",
+    )
+
+
+def _part_of_name(stuck: Stuck, message: str, token: Token) -> Mistake | None:
+    """Take a sign directly between two names to be meant as a part of one name."""
+    before, after = stuck.token(-1), stuck.token(1)
+    if before is None or before.type not in ("NAME", "UNIT") or before.span.end != token.span.start:
+        return None
+    last = token
+    if after is not None and after.type in NAMES | NUMBERS and after.span.start == token.span.end:
+        last = after
+    span = across(before, last)
+    quoted = f'"{stuck.source.slice(span)}"'
+    if not token.text.isprintable() or "\\" in quoted or last.type == "STRING":
+        return None
+    meant = replaced(stuck, stuck.at - 1, Token("STRING", quoted, span), n=2 if last is token else 3)
+    advice = f"as a part of a name, write `{quoted}`"
+    return mistake("MS003", message, token.span, advice, Fix(span, quoted, safe=False), meant=meant)
+
+
+def stray_sign(stuck: Stuck) -> Mistake | None:
+    """`|`, `=`, `:` and `,` where they have no business."""
+    token = stuck.token(0)
+    if token is None or token.type not in _ELSEWHERE:
+        return None
+    if token.type == "EQUALS" and stuck.tokens[0].type == "LET":
+        return None
+    message, advice = _ELSEWHERE[token.type]
+    return mistake("MS010", message, token.span, advice)

@@ -1,0 +1,107 @@
+"""Mistakes in the words of the language: their case, their spelling, their use as names."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from mlmg_grammar import reserved_words
+from mlmg_lang.diagnostics import Fix
+from mlmg_lang.parsing.amounts import UNITS
+from mlmg_lang.parsing.build_syntax import motion_script
+from mlmg_lang.parsing.line_parser import Stuck
+from mlmg_lang.parsing.mistakes.mistake import Mistake, across, found, gets_further, mistake, replaced
+from mlmg_lang.parsing.tokens import JOINERS, NUMBERS, Token
+from mlmg_lang.source import Span
+from mlmg_lang.spelling import is_slip_of, listed
+
+
+def wrong_case(stuck: Stuck) -> Mistake | None:
+    """`WALK FOR 10 SEC`: one message for all such words of the line."""
+    lowered = _lowered(stuck.tokens)
+    for first in (0, max(stuck.at - 2, 0)):
+        changed = {at: word for at, word in lowered.items() if at >= first}
+        meant = tuple(changed.get(at, token) for at, token in enumerate(stuck.tokens))
+        if changed and gets_further(stuck, meant):
+            span = across(stuck.tokens[min(changed)], stuck.tokens[max(changed)])
+            message = _case_message(listed(stuck.tokens[at].text for at in changed))
+            advice = f"write {listed(word.text for word in changed.values())}"
+            fix = Fix(span, _respelled(stuck, changed, span), safe=True)
+            return mistake("MS011", message, span, advice, fix, meant=meant)
+    return None
+
+
+def _case_message(words: str) -> str:
+    return f"{words}: the words of the language are written in lower case"
+
+
+def _lowered(tokens: Sequence[Token]) -> dict[int, Token]:
+    """Return, by index, the names that would be words of the language or units in lower case."""
+    words = reserved_words(motion_script())
+    changed = {}
+    for at, token in enumerate(tokens):
+        low = token.text.lower()
+        if token.type != "NAME" or low == token.text:
+            continue
+        if low in words:
+            changed[at] = replace(token, type=words[low], text=low)
+        elif low in UNITS and at and tokens[at - 1].type in NUMBERS:
+            changed[at] = replace(token, type="UNIT", text=low)
+    return changed
+
+
+def _respelled(stuck: Stuck, changed: dict[int, Token], span: Span) -> str:
+    """Return the text of a span with some of its tokens spelt as changed."""
+    pieces, end = [], span.start
+    for token in changed.values():
+        pieces += [stuck.source.text[end : token.span.start], token.text]
+        end = token.span.end
+    return "".join(pieces)
+
+
+def misspelt_word(stuck: Stuck) -> Mistake | None:
+    """`WALK whit Upper-Body TALK`: the word may stand before the one that does not fit."""
+    words = reserved_words(motion_script())
+    for at in range(min(stuck.at, len(stuck.tokens) - 1), max(stuck.at - 3, -1), -1):
+        token = stuck.tokens[at]
+        if token.type != "NAME" or not token.text.islower():
+            continue
+        for word in (word for word in words if is_slip_of(token.text, word)):
+            meant = replaced(stuck, at, replace(token, type=words[word], text=word))
+            if gets_further(stuck, meant):
+                message, fix = (
+                    f"`{token.text}` is not a word of the language",
+                    Fix(token.span, word, safe=False),
+                )
+                return mistake("MS019", message, token.span, f"did you mean `{word}`?", fix, meant=meant)
+    return None
+
+
+def reserved_as_name(stuck: Stuck) -> Mistake | None:
+    """`TALK with to`."""
+    token = stuck.token(0)
+    if token is None or "NAME" not in stuck.accepts or token.type in JOINERS:
+        return None
+    if token.text not in reserved_words(motion_script()):
+        return None
+    meant = replaced(stuck, stuck.at, replace(token, type="NAME"))
+    if not gets_further(stuck, meant) or (token.type in ("FOR", "ONCE") and stuck.type(1) != "$END"):
+        return None
+    fix = Fix(token.span, f'"{token.text}"', safe=False)
+    message = f"`{token.text}` is a word of the language, not a name"
+    return mistake("MS018", message, token.span, "in quotes it is a name", fix, meant=meant)
+
+
+def head_without_body(stuck: Stuck) -> Mistake | None:
+    """`repeat 3 WALK`, `repeat { ... }`, `repeat twice { ... }`."""
+    first = stuck.tokens[0]
+    if first.type == "REPEAT":
+        advice = "write `repeat 3 { ... }`"
+        if "INTEGER" in stuck.accepts:
+            message = f"`repeat` needs a whole number after it{f', found {found(stuck)}' if stuck.left else ''}"
+            return mistake("MS010", message, stuck.span, advice)
+        return mistake("MS013", "the statements to repeat stand in `{ }`", stuck.span, advice)
+    if first.type == "CHOOSE":
+        advice = "write `choose { ... | ... }`"
+        return mistake("MS013", "the branches to choose from stand in `{ }`", stuck.span, advice)
+    return None

@@ -1,0 +1,17 @@
+"""Text -> tokens."""
+
+from __future__ import annotations
+
+from mlmg_grammar import scan
+from mlmg_lang.parsing.build_syntax import motion_script
+from mlmg_lang.parsing.tokens import Token
+from mlmg_lang.source import Source, Span
+
+
+def tokenize(source: Source) -> tuple[Token, ...]:
+    """Return the tokens of a text in order, comments and line ends too. This never fails."""
+    return tuple(
+        Token(piece.type, str(piece), Span(piece.start_pos, piece.start_pos + len(piece)))
+        for piece in scan(motion_script(), source.text)
+        if piece.type != "SPACE" and piece.start_pos is not None
+    )

@@ -1,0 +1,217 @@
+"""The names of a motion expression -> those that mean nothing, or not what their place asks for."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from mlmg_lang.diagnostics import Diagnostic, Fix
+from mlmg_lang.parsing import syntax
+from mlmg_lang.parsing.case import is_shouted, wrong_case
+from mlmg_lang.parsing.lexical import script_name
+from mlmg_lang.parsing.structure import SUB, group_of, is_sub
+from mlmg_lang.planning.names import Names
+from mlmg_lang.spelling import joined, listed, nearest, normal
+
+_MAX_LISTED = 8
+"""The most names that a message lists when none is like the one written."""
+
+
+@dataclass(frozen=True, slots=True)
+class Scope:
+    """What a name can mean in a script.
+
+    Attributes
+    ----------
+    definitions : the names that the script defines.
+    open : whether other files may define more.
+    """
+
+    names: Names
+    definitions: frozenset[str]
+    open: bool
+
+    def defines(self, name: syntax.Name) -> bool:
+        """Return whether a name is one of the script's own."""
+        return normal(name.text) in self.definitions
+
+
+@dataclass(frozen=True, slots=True)
+class Unbound:
+    """A name that nothing can be played for; `diagnostic` is None where that is reported elsewhere."""
+
+    diagnostic: Diagnostic | None
+
+
+def unbound(motion: syntax.Motion, scope: Scope) -> Iterator[Unbound]:
+    """Yield the names of an expression that cannot be played, in the order of the text."""
+    for node in _parts(motion, scope):
+        match node:
+            case syntax.Reference(name):
+                yield from _motion_name(name, scope)
+            case syntax.Qualified():
+                yield from _qualified(node, scope)
+            case syntax.Call(name):
+                yield from _called(node, name, scope)
+
+
+def graph_hints(motion: syntax.Motion, names: Names) -> Iterator[Diagnostic]:
+    """Yield the graphs' names that the library spells otherwise."""
+    for node in syntax.walk(motion):
+        if isinstance(node, syntax.Qualified | syntax.Call):
+            name = node.graph if isinstance(node, syntax.Qualified) else node.name
+            meant = SUB if is_sub(name) else names.graph(name.text)
+            if meant is not None:
+                yield from inexact(name, meant)
+
+
+def inexact(name: syntax.Name, meant: str) -> Iterator[Diagnostic]:
+    """Yield a hint if a name is not spelt as it should be."""
+    if normal(name.text) != normal(meant):
+        message = f"`{name.text}` is spelt `{meant}` in the library"
+        right = script_name(meant)
+        yield Diagnostic("MS020", message, name.span, f"write `{right}`", fixes=(Fix(name.span, right, safe=True),))
+
+
+def graph_name(name: syntax.Name, scope: Scope) -> Iterator[Unbound]:
+    """Yield a name that should be a graph's, if it is not."""
+    if is_sub(name) or scope.names.graph(name.text) is not None:
+        return
+    if not name.sound:
+        yield Unbound(None)
+    elif is_shouted(name) and not scope.names.places(name.text):
+        yield Unbound(wrong_case(name))
+    elif scope.names.places(name.text):
+        yield Unbound(_not_a_graph(name, scope.names))
+    else:
+        yield Unbound(_unknown_graph(name, scope.names))
+
+
+def _parts(motion: syntax.Motion, scope: Scope) -> Iterator[syntax.Motion]:
+    """Yield the named parts of an expression; what stands in a part that is reported whole is left out."""
+    waiting: list[syntax.Motion] = [motion]
+    while waiting:
+        part = waiting.pop()
+        match part:
+            case syntax.With(operands) | syntax.Or(operands) | syntax.And(operands):
+                waiting.extend(reversed(operands))
+            case syntax.Not(operand):
+                waiting.append(operand)
+            case syntax.Group(inner):
+                waiting.append(inner)
+            case syntax.Call(name):
+                yield part
+                inside = None if scope.defines(name) else group_of(part)
+                waiting.extend([inside] if inside is not None else [])
+            case _:
+                yield part
+                if isinstance(part, syntax.Qualified) and isinstance(part.motion, syntax.Call):
+                    waiting.append(part.motion)
+
+
+def _qualified(node: syntax.Qualified, scope: Scope) -> Iterator[Unbound]:
+    """Yield what is wrong with `GRAPH NAME`; the two names tell together what was meant."""
+    graph, names = node.graph, scope.names
+    wrong = list(graph_name(graph, scope))
+    if not isinstance(node.motion, syntax.Reference):
+        yield from wrong
+        return
+    name = node.motion.name
+    inner = list(_motion_name(name, scope, on=names.graph(graph.text)))
+    if wrong and names.graph(name.text) is not None and names.places(graph.text):
+        yield Unbound(_swapped(node, names))
+    elif wrong and is_shouted(graph):
+        yield from wrong
+    elif wrong and inner and is_shouted(name):
+        yield from inner
+    else:
+        yield from (*wrong, *inner)
+
+
+def _called(node: syntax.Call, name: syntax.Name, scope: Scope) -> Iterator[Unbound]:
+    foreign = scope.open and not is_sub(name) and scope.names.graph(name.text) is None
+    if foreign or scope.defines(name) or group_of(node) is None:
+        yield Unbound(None)
+    else:
+        yield from graph_name(name, scope)
+
+
+def _motion_name(name: syntax.Name, scope: Scope, on: str | None = None) -> Iterator[Unbound]:
+    """Yield a name that should be a motion's or a tag's, if it is not; `on`: the graph written before it."""
+    if scope.defines(name):
+        yield Unbound(None)
+        return
+    if scope.names.places(name.text):
+        return
+    if not name.sound or (scope.open and scope.names.graph(name.text) is None):
+        yield Unbound(None)
+    elif is_shouted(name):
+        yield Unbound(wrong_case(name))
+    elif scope.names.graph(name.text) is not None or is_sub(name):
+        yield Unbound(_graph_alone(name, scope.names))
+    else:
+        yield Unbound(_unknown(name, scope.names, on))
+
+
+# --- what to say -----------------------------------------------------------------------------------------
+
+
+def _unknown(name: syntax.Name, names: Names, on: str | None) -> Diagnostic:
+    message = f"no tag or motion `{name.text}` in this library"
+    near = nearest(name.text, names.spellings_on(on)) if on is not None else ()
+    near = near or nearest(name.text, names.spellings())
+    if not near:
+        near_graph = nearest(name.text, names.graphs, limit=1)
+        advice = f"there is a graph `{near_graph[0]}`" if near_graph else _all_names(names)
+        return Diagnostic("MS021", message, name.span, advice)
+    advice = joined(f"on {_place(word, names, on)} there is `{word}`" for word in near)
+    fixes = tuple(Fix(name.span, script_name(word), safe=False) for word in near)
+    return Diagnostic("MS021", message, name.span, advice, fixes=fixes)
+
+
+def _place(word: str, names: Names, on: str | None) -> str:
+    """Return a graph on which there is a name: the one asked for, if it is there."""
+    places = names.places(word)
+    return on if on in places and on is not None else places[0]
+
+
+def _all_names(names: Names) -> str | None:
+    """Return which tags there are, or motions if there are no tags, unless they are many."""
+    known = names.tags() or names.spellings()
+    return f"there are {listed(known)}" if 0 < len(known) <= _MAX_LISTED else None
+
+
+def _unknown_graph(name: syntax.Name, names: Names) -> Diagnostic:
+    near = nearest(name.text, names.graphs)
+    message = f"no graph `{name.text}` in this library"
+    advice = f"the graphs are {listed(names.graphs)}" if len(names.graphs) > 1 else f"its one graph is `{names.root}`"
+    if near:
+        advice = f"there is {listed(near, 'or')}"
+    fixes = tuple(Fix(name.span, script_name(graph), safe=False) for graph in near)
+    return Diagnostic("MS026", message, name.span, advice, fixes=fixes)
+
+
+def _not_a_graph(name: syntax.Name, names: Names) -> Diagnostic:
+    kind = _kind(name, names)
+    message = f"`{name.text}` is a {kind}, not a graph"
+    return Diagnostic("MS025", message, name.span, "join motions by `with` or `and`")
+
+
+def _swapped(node: syntax.Qualified, names: Names) -> Diagnostic:
+    graph, motion = names.graph(node.motion.name.text), node.graph
+    right = f"{script_name(graph or '')} {script_name(motion.text)}"
+    message = f"`{motion.text}` is a {_kind(motion, names)}, not a graph; the graph comes first"
+    return Diagnostic("MS025", message, node.span, f"write `{right}`", fixes=(Fix(node.span, right, safe=True),))
+
+
+def _graph_alone(name: syntax.Name, names: Names) -> Diagnostic:
+    graph = names.graph(name.text) or name.text
+    message = f"`{graph}` is a graph, not a motion"
+    known = names.spellings_on(graph)[:1] if graph in names.graphs else ()
+    advice = f"write what it is to do, as in `{script_name(graph)} {script_name(known[0])}`" if known else None
+    return Diagnostic("MS024", message, name.span, advice)
+
+
+def _kind(name: syntax.Name, names: Names) -> str:
+    match = names.find_unqualified(names.places(name.text)[0], name.text)
+    return "motion" if match is None else match.entry.kind

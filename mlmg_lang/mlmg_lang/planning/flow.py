@@ -1,0 +1,268 @@
+"""One command and what may be playing before it -> what it can do, and what may be playing after it.
+
+Rule 1: a part can leave a motion of the graph above only if that motion is on the part's own graph. It holds
+from layer to layer of a command, and for the topmost layer against what plays above it already.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field, replace
+from typing import TypeAlias
+
+from mlmg_lang.catalog import Catalog
+from mlmg_lang.planning.names import Names
+from mlmg_lang.planning.resolved import LeftOut
+from mlmg_lang.planning.typed import Layer
+from mlmg_lang.source import Span
+
+Setter: TypeAlias = tuple[int, str]
+"""The statement, by its number, and the graph that it set."""
+
+
+@dataclass(frozen=True, slots=True)
+class Part:
+    """A graph that a command has named and none has ended since.
+
+    Attributes
+    ----------
+    motions : those that may drive it, its own or its parent's.
+    setter : what set it; None for the start.
+    alone : whether it may run a motion other than its parent's.
+    """
+
+    motions: frozenset[str]
+    setter: Setter | None
+    alone: bool
+
+
+@dataclass(frozen=True, slots=True)
+class State:
+    """What may be playing between two statements.
+
+    Attributes
+    ----------
+    parts : by graph; the root is always among them.
+    certain : False after a statement that could not be understood: then anything may be playing.
+    """
+
+    parts: Mapping[str, Part]
+    certain: bool = True
+
+
+@dataclass(frozen=True, slots=True)
+class Move:
+    """What a command can do: by graph, highest first, the candidates, and why others were left out."""
+
+    candidates: Mapping[str, tuple[str, ...]]
+    left_out: Mapping[str, tuple[LeftOut, ...]]
+    after: State
+
+
+@dataclass(frozen=True, slots=True)
+class Narrow:
+    """An earlier command has to do without some of its candidates, from which this one could not go on."""
+
+    setter: Setter
+    without: frozenset[str]
+    graph: str
+
+
+@dataclass(frozen=True, slots=True)
+class Stopped:
+    """A command that cannot be obeyed.
+
+    Attributes
+    ----------
+    graph : on which nothing is left.
+    span : of what it should do there.
+    above : the graph whose motions stand in the way, `graph` itself if it runs already.
+    motions : those motions.
+    by_rule_1 : whether rule 1 forbids it; else nothing can be reached.
+    setter : the earlier statement that the motions come from; None if they are this one's, or of the start.
+    within : whether they are this command's own, or may be anything, as after a statement with a mistake.
+    """
+
+    graph: str
+    span: Span
+    above: str
+    motions: tuple[str, ...]
+    by_rule_1: bool
+    setter: Setter | None
+    within: bool
+
+
+def begin(names: Names, motion: str) -> State:
+    """Return the state at the start."""
+    return State({names.root: Part(frozenset((motion,)), None, True)})
+
+
+def unknown(names: Names) -> State:
+    """Return the state in which anything may be playing."""
+    return State({names.root: Part(frozenset(names.motions(names.root)), None, True)}, certain=False)
+
+
+def ended(state: State, graph: str, names: Names) -> State:
+    """Return the state after a part, and with it all below it, has been given back to its parent."""
+    gone = {graph, *names.below((graph,))}
+    return replace(state, parts={name: part for name, part in state.parts.items() if name not in gone})
+
+
+def move(
+    chosen: Iterable[Layer],
+    state: State,
+    index: int,
+    forbidden: Mapping[str, Mapping[str, LeftOut]],
+    library: tuple[Names, Catalog],
+) -> Move | Narrow | Stopped:
+    """Return what a command does.
+
+    Parameters
+    ----------
+    chosen : one for each graph that it names.
+    index : its number.
+    forbidden : by graph, the candidates that a later command has ruled out.
+    """
+    names, catalog = library
+    layers = {layer.graph: layer for layer in sorted(chosen, key=lambda layer: names.height(layer.graph))}
+    return _Mover(names, catalog, state, index, layers).run(forbidden)
+
+
+@dataclass(slots=True)
+class _Mover:
+    """Works out one command. `left` holds by graph the candidates that are still in question."""
+
+    names: Names
+    catalog: Catalog
+    state: State
+    index: int
+    layers: dict[str, Layer]
+    left: dict[str, tuple[str, ...]] = field(default_factory=dict)
+    out: dict[str, dict[str, LeftOut]] = field(default_factory=dict)
+    parts: dict[str, Part] = field(default_factory=dict)
+
+    def run(self, forbidden: Mapping[str, Mapping[str, LeftOut]]) -> Move | Narrow | Stopped:
+        for graph, layer in self.layers.items():
+            self.out[graph] = dict(forbidden.get(graph, {}))
+            self.left[graph] = tuple(motion for motion in layer.motions if motion not in self.out[graph])
+        for graph in reversed(self.layers):
+            stopped = self._ask_above(graph)
+            if stopped is not None:
+                return stopped
+        for graph in self.layers:
+            hindered = self._enter(graph)
+            if hindered is not None:
+                return hindered
+        left_out = {graph: tuple(reasons.values()) for graph, reasons in self.out.items()}
+        return Move(self.left, left_out, self._after())
+
+    # --- from the lowest to the highest: what does a layer ask of the one above? ---
+
+    def _ask_above(self, graph: str) -> Stopped | None:
+        """Leave out the candidates above from which a layer could not start."""
+        above = self._named_above(graph)
+        if above is None:
+            return None
+        before = self.left[above]
+        own = self.state.parts.get(graph)
+        running = self.state.parts.get(above)
+        for motion in before:
+            sources = {motion}
+            if own is not None and running is not None and motion in running.motions:
+                sources |= own.motions
+            self._test(above, motion, graph, sources)
+        if self.left[above]:
+            return None
+        by_rule_1 = not any(motion in self._on(graph) for motion in before)
+        return Stopped(graph, self.layers[graph].span, above, before, by_rule_1, None, within=True)
+
+    def _test(self, above: str, motion: str, graph: str, sources: set[str]) -> None:
+        """Leave a candidate out if a layer below could not start from it."""
+        if motion not in self._on(graph):
+            self._leave_out(above, motion, "rule 1", f"it is not on `{graph}`")
+        elif not any(self._leads_on(graph, source) for source in sources):
+            self._leave_out(above, motion, "unreachable", f"nothing asked of `{graph}` can be reached from it")
+
+    # --- from the highest to the lowest: how does each get there? ---
+
+    def _enter(self, graph: str) -> Narrow | Stopped | None:
+        """Find what a layer can start from, and what of it can be reached."""
+        above = self._named_above(graph)
+        if above is None:
+            found = self._sources_before(graph)
+            if isinstance(found, Narrow | Stopped):
+                return found
+            sources, driving = found
+        else:
+            driving = self.parts[above].motions
+            sources = driving | self._kept(graph, above)
+        for motion in self.left[graph]:
+            if motion not in sources and not any(self._reaches(graph, source, motion) for source in sources):
+                self._leave_out(graph, motion, "unreachable", "it cannot be reached")
+        self.parts[graph] = self._arrived(graph, sources, driving)
+        return None
+
+    def _sources_before(self, graph: str) -> tuple[frozenset[str], frozenset[str]] | Narrow | Stopped:
+        """Return what the topmost layer starts from, and what drives the graph above it."""
+        above = graph if graph in self.state.parts else self._running_above(graph)
+        part = self.state.parts[above]
+        may_leave = part.motions if above == graph else part.motions & self._on(graph)
+        good = frozenset(motion for motion in may_leave if self._leads_on(graph, motion))
+        bad = part.motions - good
+        if not good:
+            motions = tuple(motion for motion in self.names.motions(above) if motion in bad)
+            span, within = self.layers[graph].span, not self.state.certain
+            return Stopped(graph, span, above, motions, not may_leave, part.setter, within)
+        if bad and part.setter is not None:
+            return Narrow(part.setter, bad, graph)
+        driving = self.state.parts[self._running_above(graph)].motions if graph != self.names.root else good
+        return good, driving
+
+    def _kept(self, graph: str, above: str) -> frozenset[str]:
+        """Return what a part plays already, if the one above may stay as it is."""
+        own, running = self.state.parts.get(graph), self.state.parts.get(above)
+        if own is None or running is None or not running.motions & set(self.left[above]):
+            return frozenset()
+        return own.motions
+
+    def _arrived(self, graph: str, sources: frozenset[str], driving: frozenset[str]) -> Part:
+        """Return what may drive a graph when it has arrived: any candidate.
+
+        Where it is driven by a candidate already, it will stay; but which candidates a later command leaves
+        is not known yet, so that is asked only to see whether the part runs alone.
+        """
+        motions = frozenset(self.left[graph])
+        moves = not sources <= motions
+        before = self.state.parts.get(graph)
+        alone = moves or (before is not None and before.alone and bool(before.motions & sources))
+        same = len(motions) == 1 and motions == driving
+        return Part(motions, (self.index, graph), alone and not same)
+
+    def _after(self) -> State:
+        """Return the state after the command: it ends what is below its graphs and not named."""
+        gone = set(self.names.below(self.layers)) - set(self.layers)
+        kept = {graph: part for graph, part in self.state.parts.items() if graph not in gone}
+        return State({**kept, **self.parts}, self.state.certain or self.names.root in self.layers)
+
+    # --- small questions ---
+
+    def _named_above(self, graph: str) -> str | None:
+        return next((above for above in self.names.ancestors(graph) if above in self.layers), None)
+
+    def _running_above(self, graph: str) -> str:
+        return next(above for above in self.names.ancestors(graph) if above in self.state.parts)
+
+    def _on(self, graph: str) -> frozenset[str]:
+        return self.names.motion_set(graph)
+
+    def _leads_on(self, graph: str, source: str) -> bool:
+        """Return whether from a motion a candidate can be reached; being one is enough."""
+        left = self.left[graph]
+        return source in left or any(self._reaches(graph, source, motion) for motion in left)
+
+    def _reaches(self, graph: str, source: str, target: str) -> bool:
+        return self.catalog.can_reach(graph, source, target)
+
+    def _leave_out(self, graph: str, motion: str, reason: str, because: str) -> None:
+        self.left[graph] = tuple(other for other in self.left[graph] if other != motion)
+        self.out[graph][motion] = LeftOut(motion, reason, because)

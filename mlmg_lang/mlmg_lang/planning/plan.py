@@ -1,0 +1,167 @@
+"""The syntax tree -> the typed plan: every statement with its type, or what is wrong with it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+
+from mlmg_lang.diagnostics import Diagnostic, has_errors
+from mlmg_lang.parsing import syntax
+from mlmg_lang.parsing.amounts import seconds_from_quantity, unit_of
+from mlmg_lang.parsing.structure import is_sub, motion_mistakes
+from mlmg_lang.planning import typed
+from mlmg_lang.planning.binding import Scope, Unbound, graph_hints, graph_name, inexact, unbound
+from mlmg_lang.planning.names import Kind, Names
+from mlmg_lang.planning.select import select
+from mlmg_lang.source import Source, Span
+from mlmg_lang.spelling import listed, normal
+
+_MAX_COUNT = 10**9
+_MAX_MISTAKES = 200
+"""After so many a script is not meant for this library."""
+
+
+@dataclass(frozen=True, slots=True)
+class Planned:
+    """A typed plan with what is wrong with the script's names and types."""
+
+    plan: typed.TypedPlan
+    diagnostics: tuple[Diagnostic, ...]
+
+
+def plan(script: syntax.Script, names: Names, frame_rate: float, source: Source) -> Planned:
+    """Return the typed plan of a script whose structure has been checked."""
+    definitions = frozenset(normal(item.name.text) for item in script.items if isinstance(item, syntax.Let))
+    is_open = any(isinstance(item, syntax.Use) for item in script.items)
+    planner = _Planner(Scope(names, definitions, is_open), frame_rate, source)
+    statements = planner.body(script.items)
+    return Planned(typed.TypedPlan(statements), tuple(planner.diagnostics))
+
+
+class _Planner:
+    """Gives statements their types, and collects what is wrong."""
+
+    def __init__(self, scope: Scope, frame_rate: float, source: Source) -> None:
+        self.diagnostics: list[Diagnostic] = []
+        self._scope = scope
+        self._frame_rate = frame_rate
+        self._source = source
+
+    def body(self, items: Iterable[syntax.Item]) -> tuple[typed.Statement, ...]:
+        """Return the typed statements of a body; definitions leave nothing."""
+        kept = (item for item in items if not isinstance(item, syntax.Let | syntax.Use))
+        return tuple(self._statement(item) for item in kept)
+
+    def _statement(self, item: syntax.Item) -> typed.Statement:
+        planned: typed.Statement = typed.Unplanned(item.span)
+        match item:
+            case _ if len(self.diagnostics) > _MAX_MISTAKES:
+                self._give_up(item.span)
+            case syntax.Command():
+                planned = self._command(item)
+            case syntax.Wait(amount, span):
+                planned = typed.Wait(self._duration(amount), span)
+            case syntax.End(graph, span):
+                planned = self._end(graph, span)
+            case syntax.Repeat(head, body, span):
+                planned = typed.Repeat(_count(head.count), self.body(body), span)
+            case syntax.Choose(_, branches, span):
+                planned = typed.Choose(tuple(self._branch(branch) for branch in branches), span)
+        return planned
+
+    def _give_up(self, span: Span) -> None:
+        if self.diagnostics[-1].code != "MS006":
+            message = f"more than {_MAX_MISTAKES} mistakes; the names from here on are not looked up"
+            self.diagnostics.append(Diagnostic("MS006", message, span, "is this the right library?"))
+
+    def _branch(self, branch: syntax.Branch) -> typed.Branch:
+        weight = 1 if branch.weight is None else _count(branch.weight.number)
+        return typed.Branch(weight, self.body(branch.body), branch.span)
+
+    def _command(self, command: syntax.Command) -> typed.Statement:
+        ways = self._ways(command.motion)
+        if ways is None:
+            return typed.Unplanned(command.span)
+        duration = None if command.duration is None else self._duration(command.duration)
+        once = command.once is not None
+        return typed.Command(ways, duration, once, self._start(command.motion, ways), command.span)
+
+    def _ways(self, motion: syntax.Motion) -> tuple[typed.Layering, ...] | None:
+        """Return the assignments that an expression allows; None, and that is reported, if there is none."""
+        if self._report(unbound(motion, self._scope)) or self._is_ill_formed(motion):
+            return None
+        ways = select(motion, self._scope.names, self._source)
+        if isinstance(ways, Diagnostic):
+            self.diagnostics.append(ways)
+            return None
+        remarks = (*graph_hints(motion, self._scope.names), *self._remarks(ways[0]))
+        self.diagnostics += remarks
+        return None if has_errors(remarks) else ways
+
+    def _is_ill_formed(self, motion: syntax.Motion) -> bool:
+        """Return whether an expression has a mistake that has been reported with the structure."""
+        definitions = None if self._scope.open else self._scope.definitions
+        return any(motion_mistakes(motion, definitions))
+
+    def _report(self, wrong: Iterable[Unbound]) -> bool:
+        """Collect what is to be said of names that mean nothing; return whether there are any."""
+        found = False
+        for one in wrong:
+            found = True
+            if one.diagnostic is not None:
+                self.diagnostics.append(one.diagnostic)
+            if len(self.diagnostics) > _MAX_MISTAKES:
+                break
+        return found
+
+    def _remarks(self, way: typed.Layering) -> Iterator[Diagnostic]:
+        """Yield what there is to say of the spelling of the names that were found."""
+        for layer in way.layers:
+            for leaf in _leaves(layer.choice):
+                if not leaf.motions or normal(leaf.written) == normal(leaf.name):
+                    continue
+                name = syntax.Name(leaf.written, False, True, leaf.span)
+                match = self._scope.names.find(leaf.graph, leaf.written)
+                if match is not None and match.others:
+                    spellings = listed((leaf.name, *(other.name for other in match.others)), "or")
+                    message = f"`{leaf.written}` could be {spellings}"
+                    yield Diagnostic("MS023", message, leaf.span, "write it exactly as it is spelt in the library")
+                else:
+                    yield from inexact(name, leaf.name)
+
+    def _start(self, motion: syntax.Motion, ways: tuple[typed.Layering, ...]) -> str | None:
+        """Return the motion of the root graph that a command is the name of, if it is one."""
+        layer = ways[0].layers[0].choice
+        if not isinstance(motion, syntax.Reference) or not isinstance(layer, typed.Named):
+            return None
+        is_motion = layer.kind is Kind.MOTION and layer.graph == self._scope.names.root
+        return layer.name if is_motion else None
+
+    def _end(self, graph: syntax.Name, span: Span) -> typed.Statement:
+        if is_sub(graph) or self._report(graph_name(graph, self._scope)):
+            return typed.Unplanned(span)
+        meant = self._scope.names.graph(graph.text) or graph.text
+        self.diagnostics += inexact(graph, meant)
+        return typed.End(meant, span)
+
+    def _duration(self, amount: syntax.Amount) -> typed.Duration:
+        if isinstance(amount, syntax.Name):
+            return typed.Duration(None, None, amount.span)
+        cycles = float(amount.number) if unit_of(amount) == "cycles" else None
+        return typed.Duration(seconds_from_quantity(amount, self._frame_rate), cycles, amount.span)
+
+
+def _leaves(choice: typed.Choice) -> Iterator[typed.Named]:
+    match choice:
+        case typed.Named():
+            yield choice
+        case typed.AllBut(operand=operand):
+            yield from _leaves(operand)
+        case typed.Both(operands=operands) | typed.Either(operands=operands):
+            for operand in operands:
+                yield from _leaves(operand)
+
+
+def _count(digits: str) -> int:
+    """Return a whole number; one with too many digits for a person to have meant is cut."""
+    return min(int(digits[:20]), _MAX_COUNT)

@@ -1,0 +1,62 @@
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from mlmg_lang.planning.names import Kind, Names
+
+
+@pytest.fixture
+def deep(catalog: Any) -> Names:
+    """Return a tree: Body over Trunk and Legs, Trunk over two hands."""
+    graphs = {name: {"a": ()} for name in ("Body", "Trunk", "Legs", "Left", "Right")}
+    above = {"Trunk": "Body", "Legs": "Body", "Left": "Trunk", "Right": "Trunk"}
+    return Names(catalog(graphs, above, start="a"))
+
+
+def test_the_graphs_below_come_level_by_level_in_configuration_order(deep: Names) -> None:
+    assert deep.all_levels() == ("Body", "Trunk", "Legs", "Left", "Right")
+    assert deep.below(("Trunk",)) == ("Left", "Right")
+    assert deep.below(("Legs", "Trunk")) == ("Left", "Right")
+    assert deep.below(("Left",)) == ()
+
+
+def test_the_graphs_above_come_nearest_first(deep: Names) -> None:
+    assert deep.ancestors("Right") == ("Trunk", "Body")
+    assert deep.ancestors("Body") == ()
+
+
+def test_graphs_are_found_by_inexact_spelling(deep: Names) -> None:
+    assert (deep.graph("Trunk"), deep.graph("t-r_UNK"), deep.graph("Trunks")) == ("Trunk", "Trunk", None)
+
+
+def test_a_motion_goes_before_a_tag_and_exact_before_inexact(catalog: Any) -> None:
+    names = Names(catalog({"Body": {"Walk": ("walk", "WALK"), "b": ("WALK",)}}, {}, start="b"))
+    for written, name, kind, exact in [
+        ("Walk", "Walk", Kind.MOTION, True),
+        ("WALK", "WALK", Kind.TAG, True),
+        ("walk", "walk", Kind.TAG, True),
+        ("wALK", "Walk", Kind.MOTION, False),
+    ]:
+        match = names.find("Body", written)
+        assert match is not None
+        assert (match.entry.name, match.entry.kind, match.exact) == (name, kind, exact)
+
+
+def test_a_spelling_of_several_names_tells_them_all(catalog: Any) -> None:
+    names = Names(catalog({"Body": {"Walk_1": (), "WALK1": ()}}, {}, start="WALK1"))
+    match = names.find("Body", "walk1")
+    assert match is not None
+    assert [entry.name for entry in (match.entry, *match.others)] == ["Walk_1", "WALK1"]
+
+
+def test_a_name_of_signs_alone_is_not_like_every_other(catalog: Any) -> None:
+    names = Names(catalog({"Body": {"_": (), "a": ()}}, {}, start="a"))
+    assert names.find("Body", "-") is None
+
+
+def test_the_motions_of_a_tag_stand_in_configuration_order(reference: Any) -> None:
+    match = Names(reference).find("Full-Body", "IDLE")
+    assert match is not None
+    assert match.entry.motions == ("Idle_01", "Idle_02", "Music_01", "Talk_01")

@@ -1,0 +1,280 @@
+"""What commands can do where they stand in a script: rule 1, narrowing, reachability, the start."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
+
+import pytest
+
+from mlmg_lang.front_end import analyse
+from mlmg_lang.planning.resolved import Command, End, Wait
+from mlmg_lang.source import Source
+
+Resolves = Callable[..., list[dict[str, tuple[str, ...]]]]
+Codes = Callable[..., list[str]]
+
+IDLES = ("Idle_01", "Idle_02", "Music_01", "Talk_01")
+WALKS = ("Walk_01", "Walk_02", "Walk_03")
+TALKS = ("Talk_01", "Talk_02")
+UPPER_WALKS_AND_TALKS = {"Full-Body": WALKS, "Upper-Body": TALKS}
+
+
+# --- the published examples ---
+
+
+@pytest.mark.parametrize(
+    ("script", "expected"),
+    [
+        ("IDLE", [{"Full-Body": IDLES}]),
+        ("SWING_HAND", [{"Upper-Body": ("Walk_01", "Walk_02")}]),
+        ("WALK with Upper-Body TALK", [UPPER_WALKS_AND_TALKS]),
+        ("TALK and IDLE", [{"Full-Body": ("Talk_01",)}]),
+        ("WALK and TALK", [UPPER_WALKS_AND_TALKS]),
+    ],
+)
+def test_the_published_commands_mean_what_was_published(
+    script: str, expected: list[dict[str, Any]], resolves: Resolves
+) -> None:
+    assert resolves(script, start="Idle_01") == expected
+
+
+@pytest.mark.parametrize("first", ["Idle_01", "Idle_02"])
+def test_the_published_continuous_script_means_what_was_published(first: str, resolves: Resolves) -> None:
+    script = f"{first}\nWALK for 10 sec\nWALK with Sub TALK for 10 sec\nIDLE"
+    assert resolves(script) == [
+        {"Full-Body": (first,)},
+        {"Full-Body": WALKS},
+        UPPER_WALKS_AND_TALKS,
+        {"Full-Body": IDLES},
+    ]
+
+
+def test_the_published_three_layers_are_three_layers(resolves: Resolves, left_hand: Any) -> None:
+    expected = {"Full-Body": ("Walk_01",), "Upper-Body": ("Talk_01",), "Left-Hand": ("Wave_01",)}
+    assert resolves("Walk01 with Upper-Body Talk01 with Left-Hand Wave01", left_hand) == [expected]
+
+
+# --- rule 1 ---
+
+
+def test_a_candidate_above_that_the_part_cannot_leave_is_left_out(reference: Any) -> None:
+    plan = analyse(Source("IDLE with Upper-Body TALK"), reference).resolved
+    assert plan is not None
+    (command,) = plan.statements
+    assert isinstance(command, Command)
+    body, upper = command.layers
+    assert body.candidates == ("Idle_01", "Music_01", "Talk_01")
+    assert [(out.motion, out.reason) for out in body.left_out] == [("Idle_02", "rule 1")]
+    assert (upper.candidates, upper.left_out) == (TALKS, ())
+
+
+def test_rule_1_asks_the_nearest_graph_above_that_the_command_names(catalog: Any) -> None:
+    on = {"Body": {"a": (), "b": ()}, "Top": {"a": (), "c": ()}, "Hand": {"c": (), "d": ()}}
+    library = catalog(on, {"Top": "Body", "Hand": "Top"}, start="a")
+    found = analyse(Source("(a or b) with (Top (a or c)) with Hand d"), library).resolved
+    assert found is not None
+    (command,) = found.statements
+    assert isinstance(command, Command)
+    assert [layer.candidates for layer in command.layers] == [("a",), ("c",), ("d",)]
+
+
+def test_a_part_is_led_by_what_an_earlier_command_left_running_above_it(catalog: Any, codes: Codes) -> None:
+    on = {"Body": {"a": ()}, "Top": {"a": (), "c": ()}, "Hand": {"a": (), "d": ()}}
+    library = catalog(on, {"Top": "Body", "Hand": "Top"}, start="a")
+    assert codes("Hand d", library) == []
+    assert codes("Top c\nHand d", library) == ["MS040"]
+    assert codes("Top c\nend Top\nHand d", library) == []
+    assert codes("Top c\na\nHand d", library) == []
+
+
+def test_the_start_can_stand_in_the_way(codes: Codes, reference: Any) -> None:
+    assert codes("Upper-Body TALK", reference, "Idle_02") == ["MS040"]
+
+
+def test_nothing_stands_in_the_way_of_a_part_that_has_left_already(resolves: Resolves) -> None:
+    assert resolves("IDLE with Upper-Body TALK\nUpper-Body SWING_HAND")[1] == {"Upper-Body": ("Walk_01", "Walk_02")}
+
+
+def test_an_and_is_shared_out_in_the_first_way_that_rule_1_allows(catalog: Any, resolves: Resolves) -> None:
+    on = {"Body": {"a": ("A",), "i": ()}, "Top": {"b": ("B",), "i": ()}, "Hand": {"a": (), "b": ("B",), "i": ()}}
+    library = catalog(on, {"Top": "Body", "Hand": "Body"}, start="i")
+    assert resolves("A and B", library) == [{"Body": ("a",), "Hand": ("b",)}]
+
+
+def test_an_and_that_rule_1_allows_in_no_way_is_one_mistake(catalog: Any, codes: Codes) -> None:
+    on = {"Body": {"a": ("A",), "i": ()}, "Top": {"b": ("B",), "i": ()}, "Hand": {"b": ("B",), "i": ()}}
+    assert codes("A and B", catalog(on, {"Top": "Body", "Hand": "Body"}, start="i")) == ["MS040"]
+
+
+# --- narrowing ---
+
+
+def test_a_later_command_for_a_part_narrows_the_one_that_sets_its_parent(reference: Any) -> None:
+    plan = analyse(Source("IDLE\nwait 2 sec\nUpper-Body TALK"), reference).resolved
+    assert plan is not None
+    first = plan.statements[0]
+    assert isinstance(first, Command)
+    (layer,) = first.layers
+    assert layer.candidates == ("Idle_01", "Music_01", "Talk_01")
+    assert [(out.motion, out.reason) for out in layer.left_out] == [("Idle_02", "later command")]
+    assert "line 3" in layer.left_out[0].because
+
+
+def test_only_the_last_command_that_sets_the_parent_is_narrowed(resolves: Resolves) -> None:
+    script = "IDLE for 2 sec\nWALK\nIDLE\nUpper-Body TALK\nIDLE"
+    found = [layers.get("Full-Body") for layers in resolves(script)]
+    assert found == [IDLES, WALKS, ("Idle_01", "Music_01", "Talk_01"), None, IDLES]
+
+
+def test_a_narrowing_can_reach_back_over_several_commands(catalog: Any, resolves: Resolves) -> None:
+    on = {"Body": {"a": ("A",), "b": ("A",), "c": ("A",)}, "Top": {"a": (), "b": ("T",), "t": ("T",)}}
+    on["Hand"] = {"t": (), "h": ()}
+    library = catalog(on, {"Top": "Body", "Hand": "Top"}, start="a", cut=frozenset({("Top", "a", "t")}))
+    script = "A\nTop T\nHand h"
+    assert resolves(script, library) == [{"Body": ("b",)}, {"Top": ("t",)}, {"Hand": ("h",)}]
+
+
+def test_a_command_that_would_leave_nothing_to_an_earlier_one_is_at_fault(reference: Any) -> None:
+    analysis = analyse(
+        Source("Full-Body (IDLE and not (Talk_01 or Music or Idle_01))\nWALK\nIdle_02\nUpper-Body TALK"), reference
+    )
+    (one,) = analysis.diagnostics
+    assert one.code == "MS040"
+    assert one.span is not None
+    assert analysis.source.position(one.span.start) == (4, 1)
+    assert [note.span and analysis.source.slice(note.span) for note in one.notes] == ["Idle_02"]
+
+
+def test_a_narrowing_that_fails_is_taken_back(catalog: Any) -> None:
+    on = {"Body": {"s": (), "a": ("A",), "b": ("A",)}, "Top": {"b": (), "s": (), "t": ()}}
+    library = catalog(on, {"Top": "Body"}, start="s", cut=frozenset({("Body", "s", "b")}))
+    analysis = analyse(Source("A\nTop t"), library)
+    assert [one.code for one in analysis.diagnostics] == ["MS040"]
+    assert analysis.resolved is None
+
+
+# --- reachability ---
+
+
+def test_a_candidate_that_cannot_be_reached_is_left_out(reference: Any) -> None:
+    library = replace(reference, cut=frozenset({("Full-Body", "Idle_01", "Walk_02")}))
+    plan = analyse(Source("WALK"), library).resolved
+    assert plan is not None
+    (command,) = plan.statements
+    assert isinstance(command, Command)
+    (layer,) = command.layers
+    assert layer.candidates == ("Walk_01", "Walk_03")
+    assert [(out.motion, out.reason) for out in layer.left_out] == [("Walk_02", "unreachable")]
+
+
+def test_if_nothing_can_be_reached_the_command_is_an_error(reference: Any, codes: Codes) -> None:
+    cut = frozenset(("Full-Body", "Idle_01", walk) for walk in WALKS)
+    assert codes("Idle_01\nWALK", replace(reference, cut=cut)) == ["MS041"]
+
+
+def test_a_motion_from_which_a_part_can_reach_nothing_is_left_out(reference: Any, resolves: Resolves) -> None:
+    cut = frozenset(("Upper-Body", "Walk_01", talk) for talk in TALKS)
+    assert resolves("WALK with Upper-Body TALK", replace(reference, cut=cut))[0]["Full-Body"] == ("Walk_02", "Walk_03")
+
+
+def test_what_plays_already_needs_no_way(reference: Any, codes: Codes) -> None:
+    cut = frozenset(("Full-Body", "Idle_01", motion) for motion in (*WALKS, *IDLES, *TALKS))
+    assert codes("Idle_01 for 2 sec\nIDLE", replace(reference, cut=cut)) == []
+
+
+# --- ends, waits, durations ---
+
+
+def test_an_end_gives_back_what_runs_and_warns_of_what_cannot_run(codes: Codes, reference: Any) -> None:
+    assert codes("WALK with Upper-Body TALK\nend Upper-Body", reference) == []
+    assert codes("WALK with Upper-Body TALK\nend Upper-Body\nend Upper-Body", reference) == ["MS043"]
+    assert codes("WALK with Upper-Body TALK\nWALK\nend Upper-Body", reference) == ["MS043"]
+    assert codes("Walk_01\nSWING_HAND\nend Upper-Body", reference) == ["MS043"]
+    assert codes("Walk_01\nUpper-Body Walk_02\nend Upper-Body", reference) == []
+    assert codes("Full-Body IDLE\nend Full-Body", reference) == ["MS042"]
+
+
+def test_an_end_takes_the_parts_below_with_it(codes: Codes, left_hand: Any) -> None:
+    script = "WALK with Upper-Body TALK with Left-Hand WAVE\nend Upper-Body\nend Left-Hand"
+    assert codes(script, left_hand) == ["MS043"]
+
+
+def test_a_plan_has_waits_ends_and_durations_in_seconds(reference: Any) -> None:
+    plan = analyse(
+        Source("WALK with TALK for 2 min\nwait 250 ms\nend upper_body\nIDLE for 45 frames"), reference
+    ).resolved
+    assert plan is not None
+    walk, wait, end, idle = plan.statements
+    assert isinstance(walk, Command)
+    assert walk.duration_s == 120.0
+    assert isinstance(wait, Wait)
+    assert wait.duration_s == 0.25
+    assert isinstance(end, End)
+    assert end.graph == "Upper-Body"
+    assert isinstance(idle, Command)
+    assert idle.duration_s == 1.5
+
+
+def test_layers_stand_highest_first_whatever_the_order_of_the_text(left_hand: Any) -> None:
+    plan = analyse(Source("WAVE and TALK and WALK"), left_hand).resolved
+    assert plan is not None
+    (command,) = plan.statements
+    assert isinstance(command, Command)
+    assert [layer.graph for layer in command.layers] == ["Full-Body", "Upper-Body", "Left-Hand"]
+
+
+# --- the start ---
+
+
+@pytest.mark.parametrize(
+    ("script", "given", "start"),
+    [
+        ("WALK", None, "Music_01"),
+        ("Idle_02", None, "Idle_02"),
+        ("idle-02 for 3 sec", None, "Idle_02"),
+        ("wait 2 sec\nWalk_01", None, "Walk_01"),
+        ("Idle_02", "walk01", "Walk_01"),
+        ("IDLE\nIdle_02", None, "Music_01"),
+        ("Full-Body Idle_02", None, "Music_01"),
+        ("Idle_02 with Upper-Body Idle_01", "Idle_01", "Idle_01"),
+        ("SWING_HAND", None, "Music_01"),
+        ("", None, "Music_01"),
+    ],
+)
+def test_the_start_is_given_or_the_first_command_or_the_librarys(
+    script: str, given: str | None, start: str, reference: Any
+) -> None:
+    analysis = analyse(Source(script), replace(reference, start="Music_01"), given)
+    if analysis.resolved is not None:
+        assert analysis.resolved.start == start
+    else:
+        assert [one.code for one in analysis.diagnostics] == ["MS040"]
+
+
+def test_a_library_whose_start_is_not_there_starts_in_its_first_motion(reference: Any) -> None:
+    plan = analyse(Source("WALK"), replace(reference, start="Gone")).resolved
+    assert plan is not None
+    assert plan.start == "Idle_01"
+
+
+def test_an_unknown_start_is_an_error_without_a_place(reference: Any) -> None:
+    analysis = analyse(Source("WALK"), reference, "Idel_01")
+    (one,) = analysis.diagnostics
+    assert (one.code, one.span, analysis.resolved) == ("MS044", None, None)
+    assert one.help is not None
+    assert "Idle_01" in one.help
+
+
+# --- after a mistake ---
+
+
+def test_a_mistake_in_one_command_brings_none_in_the_next(codes: Codes, reference: Any) -> None:
+    assert codes("Idle_02\nWLAK\nUpper-Body TALK\nend Upper-Body", reference) == ["MS021"]
+    assert codes("Idle_02\nUpper-Body TALK\nUpper-Body TALK\nend Upper-Body", reference) == ["MS040"]
+    assert codes("repeat 2 { WALK }\nUpper-Body TALK", reference) == ["MS060"]
+
+
+def test_after_a_command_for_the_whole_body_everything_is_certain_again(codes: Codes, reference: Any) -> None:
+    assert codes("WLAK\nIdle_02\nUpper-Body TALK", reference) == ["MS021", "MS040"]
