@@ -1,0 +1,420 @@
+"""A character is asked random things; what it then plays is held against the rules of the language, frame by frame."""
+
+from collections.abc import Callable, Iterator
+from itertools import islice, pairwise, takewhile
+from typing import Any
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from mlmg_runtime.errors import PlayError
+from mlmg_runtime.library import Library
+from mlmg_runtime.motion_graph import MotionGraph, Position
+from mlmg_runtime.playing.holding import stay
+from mlmg_runtime.playing.performer import LONGEST_RETURN_S, Performer
+from mlmg_runtime.playing.returning import find_return
+from mlmg_runtime.playing.timeline import Blend, Clip, Segment, Timeline
+
+Run = list[Segment]
+Layers = list[tuple[str, list[str]]]
+Soonest = Callable[..., Any]
+
+
+# What a timeline says
+
+
+def runs(timeline: Timeline, graph: str) -> list[Run]:
+    """Return the stretches of time in which a graph runs on its own."""
+    found: list[Run] = []
+    for segment in timeline.tracks.get(graph, ()):
+        goes_on = found and found[-1][-1].end == segment.begin and found[-1][-1].after is not None
+        if goes_on:
+            found[-1].append(segment)
+        else:
+            found.append([segment])
+    return found
+
+
+def place(segment: Segment, time: int) -> tuple[int, Position]:
+    """Return the first time from `time` on at which a segment's graph is at a frame of a clip, and the frame."""
+    if isinstance(segment, Clip) and segment.begin <= time < segment.end:
+        return time, Position(segment.first.motion, segment.first.frame + time - segment.begin)
+    if isinstance(segment, Blend) and time == segment.begin:
+        return time, segment.source
+    return segment.end, segment.after
+
+
+def track_at(library: Library, timeline: Timeline, graph: str, time: int) -> tuple[MotionGraph, Segment]:
+    """Return what drives a graph at a time: its own segment, or that of the graph above."""
+    for name in (graph, *library.ancestors(graph)):
+        for segment in timeline.tracks.get(name, ()):
+            if segment.begin <= time < segment.end:
+                return library.by_name[name], segment
+    raise AssertionError(f"nothing plays on {graph} at {time}")
+
+
+def shown(library: Library, timeline: Timeline, graph: str, time: int) -> tuple[str, int] | None:
+    """Return the motion and frame that a graph shows at a time, by whatever drives it; None inside a blend."""
+    driver, segment = track_at(library, timeline, graph, time)
+    when, at = place(segment, time)
+    return (driver.motions[at.motion], at.frame) if when == time else None
+
+
+# What every timeline must be
+
+
+def check_timeline(library: Library, performer: Performer) -> None:
+    timeline = performer.timeline()
+    root = library.root.name
+    assert list(timeline.tracks) == [graph for graph in library.graphs if graph in timeline.tracks]
+    (whole,) = runs(timeline, root) or [[]]
+    if timeline.n_frames:
+        assert whole[0].begin == 0
+        assert whole[-1].end >= timeline.n_frames
+    for graph in timeline.tracks:
+        for run in runs(timeline, graph):
+            check_run(library.by_name[graph], run)
+            if graph != root:
+                check_part(library, performer, timeline, graph, run)
+
+
+def check_run(graph: MotionGraph, run: Run) -> None:
+    """Check that a run is one walk: no gap, clips go on where transitions arrive, transitions are the graph's."""
+    for before, after in pairwise(run):
+        assert before.end == after.begin
+        assert before.after == (after.first if isinstance(after, Clip) else after.source)
+    for segment in run:
+        assert segment.begin < segment.end
+        if isinstance(segment, Clip):
+            assert segment.after.frame <= graph.n_frames[segment.first.motion]
+            assert 0.8 <= segment.speed <= 1.2
+        else:
+            assert segment.end - segment.begin == graph.window
+            if segment.transition is not None:
+                assert segment.transition in graph.edges
+                assert segment.source == segment.transition[:2]
+                assert segment.target == segment.transition[2:4]
+            elif segment.target is not None:
+                assert segment.source.motion == segment.target.motion
+
+
+def check_part(library: Library, performer: Performer, timeline: Timeline, graph: str, run: Run) -> None:
+    """Check that a part leaves and meets its parent in the very frame, and that its parent's motions are on it."""
+    own, parent = library.by_name[graph], library.parent(graph)
+    begin, end = run[0].begin, run[-1].end
+    first = run[0].first if isinstance(run[0], Clip) else run[0].source
+    assert shown(library, timeline, parent, begin) == (own.motions[first.motion], first.frame)
+    for time in range(begin, min(end, timeline.n_frames)):
+        driver, segment = track_at(library, timeline, parent, time)
+        for motion in motions_of(segment):
+            assert driver.motions[motion] in own.index
+    goes_on = performer.runs(graph) and run[-1] == timeline.tracks[graph][-1]
+    if not goes_on and run[-1].after is not None and end < timeline.n_frames:
+        motion, frame = run[-1].after
+        assert shown(library, timeline, parent, end) == (own.motions[motion], frame)
+
+
+def motions_of(segment: Segment) -> set[int]:
+    places = (segment.first,) if isinstance(segment, Clip) else (segment.source, segment.target)
+    return {at.motion for at in places if at is not None}
+
+
+@settings(max_examples=150)
+@given(data=st.data())
+def test_whatever_is_asked_the_timeline_obeys_the_graphs_and_both_rules(data, ask, small_library: Library) -> None:
+    performer = Performer(small_library, data.draw(st.sampled_from(small_library.root.motions)))
+    for _ in range(data.draw(st.integers(1, 6))):
+        before = performer.now
+        call, *what = ask(data, performer)
+        if call == "hold":
+            assert performer.now == before + what[0]
+        elif call == "bring":
+            for graph, candidates in what[0]:
+                assert performer.motion(graph) in candidates
+        else:
+            assert not performer.runs(what[0])
+    check_timeline(small_library, performer)
+    performer.hold(100)
+    check_timeline(small_library, performer)
+
+
+# What a character should do, slowly
+
+
+class Model:
+    """What the rules say that a performer does: which motions it takes, and when each part arrives or comes back.
+
+    Where a graph is at a time up to which all is as it should be, is read from what the performer played.
+    """
+
+    def __init__(self, performer: Performer, soonest: Soonest) -> None:
+        """Remember how things are before something is asked."""
+        self.performer, self.soonest = performer, soonest
+        self.library = performer.library
+        self.home = {graph: performer.motion(graph) for graph in self.library.graphs if performer.runs(graph)}
+        self.now = performer.now
+        self.back: list[tuple[str, int]] = []
+
+    def check(self) -> None:
+        """Compare with what the performer has done."""
+        performer = self.performer
+        assert performer.now == self.now
+        for graph in self.library.graphs:
+            assert performer.runs(graph) == (graph in self.home)
+            assert performer.motion(graph) == self.home[self.driver(graph)]
+        for graph, end in self.back:
+            assert end in [run[-1].end for run in runs(performer.timeline(), graph)]
+
+    def driver(self, graph: str) -> str:
+        return next(g for g in (graph, *self.library.ancestors(graph)) if g in self.home)
+
+    def below(self, graph: str) -> set[str]:
+        return {g for g in self.home if graph in self.library.ancestors(g)}
+
+    def where(self, graph: str, time: int) -> tuple[int, Position]:
+        """Return where a graph's own track is, at or after a time, and when."""
+        track = self.performer.timeline().tracks[graph]
+        return place([segment for segment in track if segment.begin <= time][-1], time)
+
+    def future(self, graph: str) -> Iterator[tuple[int, Position]]:
+        """Yield, frame by frame, when and where on `graph` the graph above it will be if it stays in its motion."""
+        own, above = self.library.by_name[graph], self.driver(self.library.parent(graph))
+        driving = self.library.by_name[above]
+        minded = [self.library.by_name[g].index for g in self.below(above) | {graph}]
+        allowed = [driving.index[motion] for motion in driving.motions if all(motion in on for on in minded)]
+        when, at = self.where(above, self.now)
+        for segment in stay(self.library, driving, driving.index[self.home[above]], at, when, allowed):
+            for moment in range(segment.begin, segment.end if isinstance(segment, Clip) else segment.begin + 1):
+                _, there = place(segment, moment)
+                name = driving.motions[there.motion]
+                if name in own.index:
+                    yield moment, Position(own.index[name], there.frame)
+
+    # What can be asked
+
+    def bring(self, layers: Layers) -> None:
+        named = {graph for graph, _ in layers}
+        self.end({g for g in self.home if g not in named and not named.isdisjoint(self.library.ancestors(g))})
+        for graph, candidates in layers:
+            if self.home[self.driver(graph)] not in candidates:
+                self.end(self.below(graph))
+                self.change(graph, candidates)
+
+    def end(self, graphs: set[str]) -> None:
+        """End parts and those below them, lowest first, those of one level at the same time."""
+        ended = {g for g in self.home if not graphs.isdisjoint({g, *self.library.ancestors(g)})}
+        for depth in (2, 1):
+            level = [g for g in ended if len(self.library.ancestors(g)) == depth]
+            back = [(graph, self.comes_back(graph)) for graph in level]
+            self.back += back
+            self.now = max([self.now, *(end for _, end in back)])
+            for graph in level:
+                del self.home[graph]
+
+    # How it is done
+
+    def comes_back(self, graph: str) -> int:
+        own = self.library.by_name[graph]
+        deadline = self.now + round(LONGEST_RETURN_S * self.library.frame_rate)
+        when, at = self.where(graph, self.now)
+        future = takewhile(lambda moment: moment[0] <= deadline, self.future(graph))
+        way = find_return(own, at, when, [Clip(time, time, there, 0) for time, there in future], deadline)
+        if way is None:
+            return when + own.window
+        return way[-1].end if way else when
+
+    def change(self, graph: str, candidates: list[str]) -> None:
+        own = self.library.by_name[graph]
+        if graph == self.library.root.name:
+            targets = candidates
+        else:
+            above = self.home[self.driver(self.library.parent(graph))]
+            fits = [own.oms[own.index[above], own.index[motion]] for motion in candidates]
+            targets = [candidates[fits.index(min(fits))]]
+            if targets == [above]:
+                self.end({graph})
+                return
+        starts = dict([self.where(graph, self.now)] if graph in self.home else islice(self.future(graph), 400))
+        first = min(starts)
+        later = {time - first: at for time, at in starts.items()}
+        walk = self.soonest(own, starts[first], [own.index[motion] for motion in targets], later=later)
+        self.now = first + walk.n_frames
+        self.home[graph] = targets[walk.target]
+
+
+@settings(max_examples=200)
+@given(data=st.data())
+def test_everything_asked_is_done_as_the_rules_say_and_as_soon_as_can_be(
+    data, ask, soonest, small_library: Library
+) -> None:
+    performer = Performer(small_library, data.draw(st.sampled_from(small_library.root.motions)))
+    for _ in range(data.draw(st.integers(1, 4))):
+        model = Model(performer, soonest)
+        call, *what = ask(data, performer)
+        if call == "bring":
+            model.bring(*what)
+        elif call == "end":
+            model.end(set(what))
+        else:
+            model.now += what[0]
+        model.check()
+
+
+@settings(max_examples=100)
+@given(data=st.data())
+def test_where_no_part_runs_layers_at_once_are_layers_one_after_the_other(data, ask, small_library: Library) -> None:
+    start = data.draw(st.sampled_from(small_library.root.motions))
+    at_once, one_by_one = Performer(small_library, start), Performer(small_library, start)
+    call, *what = ask(data, at_once)
+    if call == "bring":
+        for layer in what[0]:
+            one_by_one.bring([layer])
+        assert at_once.timeline() == one_by_one.timeline()
+
+
+@settings(max_examples=50)
+@given(data=st.data())
+def test_the_same_things_asked_again_give_the_same_timeline(data, ask, small_library: Library) -> None:
+    start = data.draw(st.sampled_from(small_library.root.motions))
+    first, second = Performer(small_library, start), Performer(small_library, start)
+    for _ in range(3):
+        call, *what = ask(data, first)
+        getattr(second, call)(*what)
+    assert first.timeline() == second.timeline()
+
+
+# Single things, told
+
+
+def test_before_anything_is_asked_nothing_has_been_played(small_library: Library) -> None:
+    performer = Performer(small_library, "Sway")
+    assert performer.timeline() == Timeline(0, {})
+    assert performer.motion("Left-Arm") == "Sway"
+
+
+def test_a_character_starts_in_the_first_frame_of_its_start(small_library: Library) -> None:
+    performer = Performer(small_library, "Sway")
+    performer.hold(1)
+    (first,) = performer.timeline().tracks["Full-Body"]
+    assert first == Clip(0, 1, Position(2, 0), 1)
+
+
+def test_holding_twice_is_holding_for_the_sum(small_library: Library) -> None:
+    once, twice = Performer(small_library, "Stroll"), Performer(small_library, "Stroll")
+    once.hold(333)
+    for n_frames in (100, 1, 32, 200):
+        twice.hold(n_frames)
+    assert once.timeline() == twice.timeline()
+
+
+def test_a_motion_that_plays_already_is_satisfied_as_it_is(small_library: Library) -> None:
+    performer = Performer(small_library, "Stand")
+    performer.hold(40)
+    before = performer.timeline()
+    performer.bring([("Full-Body", ["Sway", "Stand"]), ("Upper-Body", ["Stand", "Stroll"]), ("Left-Arm", ["Stand"])])
+    assert performer.timeline() == before
+
+
+def test_a_part_that_its_parent_drives_with_a_candidate_is_satisfied_as_it_is(small_library: Library) -> None:
+    performer = Performer(small_library, "Stroll")
+    performer.hold(10)
+    performer.bring([("Upper-Body", ["Stroll"])])
+    assert not performer.runs("Upper-Body")
+    assert performer.now == 10
+
+
+def test_a_part_brought_to_what_its_parent_plays_is_ended(small_library: Library) -> None:
+    performer = Performer(small_library, "Stand")
+    performer.bring([("Left-Arm", ["Wave"])])
+    assert performer.runs("Left-Arm")
+    performer.bring([("Left-Arm", ["Stand"])])
+    assert not performer.runs("Left-Arm")
+    assert performer.motion("Left-Arm") == "Stand"
+
+
+def test_going_from_one_upper_motion_to_another_does_not_end_the_upper_body(small_library: Library) -> None:
+    performer = Performer(small_library, "Stand")
+    performer.bring([("Full-Body", ["Stand"]), ("Upper-Body", ["Wave"])])
+    performer.hold(20)
+    performer.bring([("Full-Body", ["Stand"]), ("Upper-Body", ["Stroll"])])
+    performer.hold(20)
+    assert len(runs(performer.timeline(), "Upper-Body")) == 1
+
+
+def test_siblings_run_at_the_same_time(small_library: Library) -> None:
+    performer = Performer(small_library, "Stand")
+    performer.bring([("Left-Arm", ["Wave"]), ("Right-Arm", ["Reach"])])
+    assert performer.runs("Left-Arm")
+    assert performer.runs("Right-Arm")
+    performer.bring([("Right-Arm", ["Wave"])])
+    assert performer.motion("Left-Arm") == performer.motion("Right-Arm") == "Wave"
+
+
+def test_a_command_ends_the_parts_below_it_that_it_does_not_name(small_library: Library) -> None:
+    performer = Performer(small_library, "Stand")
+    performer.bring([("Left-Arm", ["Wave"]), ("Right-Arm", ["Reach"])])
+    performer.bring([("Full-Body", ["Stand"]), ("Right-Arm", ["Reach"])])
+    assert not performer.runs("Left-Arm")
+    assert performer.runs("Right-Arm")
+    performer.bring([("Left-Arm", ["Wave"])])
+    assert performer.runs("Right-Arm")
+
+
+def test_before_a_part_is_ended_those_below_it_are_though_they_are_named(small_library: Library) -> None:
+    performer = Performer(small_library, "Stand")
+    performer.bring([("Upper-Body", ["Wave"]), ("Left-Arm", ["Reach"])])
+    performer.bring([("Full-Body", ["Stand"]), ("Left-Arm", ["Reach"])])
+    assert not performer.runs("Upper-Body")
+    assert performer.motion("Left-Arm") == "Reach"
+    arm, (upper,) = runs(performer.timeline(), "Left-Arm"), runs(performer.timeline(), "Upper-Body")
+    assert arm[0][-1].end <= upper[-1].end <= arm[1][0].begin
+
+
+def test_rule_1_forbids_a_part_to_leave_a_motion_that_is_not_on_it(small_library: Library) -> None:
+    performer = Performer(small_library, "Sway")
+    with pytest.raises(PlayError, match=r"^Upper-Body cannot leave Sway, which is not on it \(rule 1\)$"):
+        performer.bring([("Upper-Body", ["Stroll"])])
+
+
+def test_a_motion_that_no_walk_reaches_is_told_by_name(small_library: Library) -> None:
+    from dataclasses import replace
+
+    root = small_library.root
+    cut_off = root.transitions[root.transitions["dst_motion"] != root.index["Reach"]]
+    hops = root.hops.copy()
+    hops[:, root.index["Reach"]] = -1
+    graphs = {**small_library.by_name, root.name: replace(root, transitions=cut_off, hops=hops)}
+    performer = Performer(replace(small_library, by_name=graphs), "Stand")
+    with pytest.raises(PlayError, match=r"^no walk on Full-Body leads from Stand to Reach; see `mlmg info`"):
+        performer.bring([("Full-Body", ["Reach"])])
+
+
+@pytest.mark.parametrize("start", ["Stand", "Stroll", "Sway", "Reach"])
+@pytest.mark.parametrize("n_frames", [0, 30, 200, 301])
+def test_played_out_a_motion_ends_with_its_clips_last_frame(small_library: Library, start: str, n_frames: int) -> None:
+    performer = Performer(small_library, start)
+    performer.hold(n_frames)
+    performer.play_out("Full-Body")
+    last = performer.timeline().tracks["Full-Body"][-1]
+    assert isinstance(last, Clip)
+    assert last.end == performer.now
+    assert small_library.root.motions[last.first.motion] == start
+    assert last.after.frame == small_library.n_frames(start)
+    check_timeline(small_library, performer)
+
+
+def test_while_a_part_plays_out_everything_else_goes_on(small_library: Library) -> None:
+    performer = Performer(small_library, "Stand")
+    performer.bring([("Upper-Body", ["Wave"]), ("Left-Arm", ["Reach"])])
+    performer.play_out("Upper-Body")
+    timeline = performer.timeline()
+    assert timeline.tracks["Upper-Body"][-1].after == Position(3, small_library.n_frames("Wave"))
+    for graph in ("Full-Body", "Left-Arm"):
+        assert timeline.tracks[graph][-1].end >= performer.now
+
+
+def test_what_drives_a_part_that_does_not_run_is_played_out(small_library: Library) -> None:
+    performer = Performer(small_library, "Stand")
+    performer.play_out("Left-Arm")
+    assert performer.now == small_library.n_frames("Stand")
