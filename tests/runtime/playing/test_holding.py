@@ -1,0 +1,134 @@
+from collections.abc import Iterator
+from itertools import pairwise, takewhile
+
+import numpy as np
+import pytest
+
+from mlmg_runtime.errors import PlayError
+from mlmg_runtime.library import Library
+from mlmg_runtime.motion_graph import MotionGraph, Position
+from mlmg_runtime.playing.holding import latest_loop, stay
+from mlmg_runtime.playing.timeline import Blend, Clip, Segment
+from mlmg_runtime.point_cloud import point_cloud, window_distances
+from mlmg_runtime.skeleton import world_positions
+
+
+def played(segments: Iterator[Segment], until: int) -> list[Segment]:
+    """Return what is played up to a frame, after checking that it goes on without a gap."""
+    found = list(takewhile(lambda segment: segment.begin < until, segments))
+    for before, after in pairwise(found):
+        assert before.end == after.begin
+        assert before.after == (after.first if isinstance(after, Clip) else after.source)
+        assert isinstance(before, Blend) or isinstance(after, Blend)
+    return found
+
+
+def departures(segments: list[Segment]) -> list[tuple[int, int]]:
+    return [(segment.source.frame, segment.target.frame) for segment in segments if isinstance(segment, Blend)]
+
+
+def test_the_latest_loop_is_the_backward_transition_that_leaves_latest_the_smoothest_of_several(motion_graph) -> None:
+    marks = [(0, 20, 0, 9, 0.1), (0, 30, 0, 12, 0.7), (0, 30, 0, 8, 0.3), (0, 31, 0, 38), (0, 33, 1, 9)]
+    graph = motion_graph([40, 20], 3, marks)
+    loop = latest_loop(graph, 0)
+    assert (loop.src_frame, loop.dst_frame) == (30, 8)
+    assert latest_loop(graph, 1) is None
+
+
+def test_a_motion_is_held_by_its_latest_loop(motion_graph) -> None:
+    graph = motion_graph([40, 20], 3, [(0, 20, 0, 9), (0, 30, 0, 12), (0, 15, 1, 9), (1, 12, 0, 5)])
+    segments = played(stay(None, graph, 0, Position(0, 2), 100, {0, 1}), 300)
+    assert segments[:4] == [
+        Clip(100, 128, Position(0, 2), 28),
+        Blend(128, 131, Position(0, 30), Position(0, 12), latest_loop(graph, 0)),
+        Clip(131, 148, Position(0, 13), 17),
+        Blend(148, 151, Position(0, 30), Position(0, 12), latest_loop(graph, 0)),
+    ]
+    assert set(departures(segments)) == {(30, 12)}
+
+
+def test_past_its_loops_a_motion_is_held_by_the_shortest_way_round(motion_graph) -> None:
+    marks = [(0, 20, 0, 9), (0, 35, 1, 9), (1, 12, 0, 5), (0, 32, 2, 9), (2, 18, 0, 3)]
+    graph = motion_graph([40, 20, 30], 3, marks)
+    segments = played(stay(None, graph, 0, Position(0, 22), 0, {0, 1, 2}), 120)
+    assert departures(segments)[:4] == [(35, 9), (12, 5), (20, 9), (20, 9)]
+
+
+def test_a_way_round_passes_only_what_the_layers_below_allow(motion_graph) -> None:
+    marks = [(0, 35, 1, 9), (1, 12, 0, 5), (0, 32, 2, 9), (2, 18, 0, 3)]
+    graph = motion_graph([40, 20, 30], 3, marks)
+    segments = played(stay(None, graph, 0, Position(0, 22), 0, {0, 2}), 120)
+    assert departures(segments)[:2] == [(32, 9), (18, 3)]
+    assert {segment.first.motion for segment in segments if isinstance(segment, Clip)} == {0, 2}
+
+
+@pytest.mark.parametrize("name", ["Full-Body", "Upper-Body", "Left-Arm", "Right-Arm"])
+def test_every_motion_of_a_library_can_be_held_from_wherever_it_is_entered(
+    small_library: Library, soonest, name: str
+) -> None:
+    graph = small_library.by_name[name]
+    everything = range(len(graph.motions))
+    for home in everything:
+        loop = latest_loop(graph, home)
+        starts = {edge.arrival for edge in graph.edges if edge.dst_motion == home} | {Position(home, 0)}
+        for start in starts:
+            position = start
+            for segment in played(stay(small_library, graph, home, start, 0, everything), 400):
+                if isinstance(segment, Clip):
+                    continue
+                assert segment.transition in graph.edges
+                if loop is not None and position.motion == home and position.frame <= loop.src_frame:
+                    assert segment.transition == loop
+                else:
+                    best = soonest(graph, position, [home], everything)
+                    assert segment.transition == best.transitions[0]
+                position = segment.after
+
+
+def cornered(library: Library) -> tuple[MotionGraph, int, set[int]]:
+    """Return a graph, a motion without self-transitions, and allowed motions through which nothing leads back."""
+    graph = library.by_name["Upper-Body"]
+    return graph, graph.index["Reach"], {graph.index["Reach"], graph.index["Stand"]}
+
+
+def test_where_nothing_leads_back_a_blend_is_made_between_the_two_most_alike_windows(small_library: Library) -> None:
+    graph, home, allowed = cornered(small_library)
+    segments = played(stay(small_library, graph, home, Position(home, 10), 0, allowed), 300)
+    points = world_positions(small_library.skeleton, small_library.poses("Reach"))[:, list(graph.joints)]
+    cloud = point_cloud(points, graph.weights, graph.window)
+    distances = window_distances(cloud, cloud)
+    position = Position(home, 10)
+    for segment in segments:
+        if isinstance(segment, Blend):
+            assert segment.transition is None
+            pairs = [
+                (distances[late, early], late, early)
+                for late in range(position.frame, cloud.n_windows)
+                for early in range(late - graph.window + 1)
+            ]
+            _, late, early = min(pairs)
+            assert (segment.source, segment.target) == (Position(home, late), Position(home, early + graph.window - 1))
+            position = segment.after
+
+
+def test_a_motion_that_cannot_go_on_is_told_by_name(small_library: Library) -> None:
+    graph, home, allowed = cornered(small_library)
+    with pytest.raises(PlayError, match=r"^Reach cannot go on after frame 88 on Upper-Body: .* longer clip$"):
+        next(stay(small_library, graph, home, Position(home, 88), 0, allowed))
+
+
+def test_a_motion_from_which_nothing_leads_back_is_told_by_name(small_library: Library) -> None:
+    graph, home, allowed = cornered(small_library)
+    start = Position(graph.index["Stand"], 119)
+    with pytest.raises(PlayError, match=r"^no way leads back to Reach on Upper-Body from Stand$"):
+        next(stay(small_library, graph, home, start, 0, allowed))
+
+
+def test_most_alike_windows_do_not_overlap(small_library: Library) -> None:
+    graph, home, allowed = cornered(small_library)
+    for frame in range(0, int(graph.n_frames[home]) - graph.window, 5):
+        blend = next(
+            s for s in stay(small_library, graph, home, Position(home, frame), 0, allowed) if isinstance(s, Blend)
+        )
+        assert np.all(blend.source.frame >= frame)
+        assert blend.target.frame < blend.source.frame
