@@ -278,3 +278,60 @@ def test_a_mistake_in_one_command_brings_none_in_the_next(codes: Codes, referenc
 
 def test_after_a_command_for_the_whole_body_everything_is_certain_again(codes: Codes, reference: Any) -> None:
     assert codes("WLAK\nIdle_02\nUpper-Body TALK", reference) == ["MS021", "MS040"]
+
+
+# --- where several things hang together ---
+
+
+def test_a_way_that_narrows_in_vain_leaves_no_trace_on_the_next(catalog: Any, resolves: Resolves) -> None:
+    on = {
+        "Body": {"a": ("A",), "b": ("A",)},
+        "Leg": {"a": (), "b": (), "l1": ("L",), "l2": ("L",)},
+        "Top": {"a": (), "b": (), "t1": ("T",), "t2": ("T",)},
+        "Foot": {"l2": (), "f": ("F",)},
+        "Hand": {"t1": (), "h": ("H",)},
+        "Toe": {"l1": (), "l2": (), "f": ("F",)},
+    }
+    above = {"Leg": "Body", "Top": "Body", "Foot": "Leg", "Hand": "Top", "Toe": "Leg"}
+    # From a only l1 and t1 can be reached, from b only l2 and t2: Foot asks for b, Hand for a, Toe for neither.
+    cut = frozenset({("Leg", "a", "l2"), ("Leg", "b", "l1"), ("Top", "a", "t2"), ("Top", "b", "t1")})
+    library = catalog(on, above, start="a", cut=cut)
+    assert resolves("A\nL\nT\nF and H", library) == [
+        {"Body": ("a",)},
+        {"Leg": ("l1",)},
+        {"Top": ("t1",)},
+        {"Hand": ("h",), "Toe": ("f",)},
+    ]
+
+
+def test_two_parts_that_ask_for_different_things_above_them_are_at_fault_together(catalog: Any) -> None:
+    on = {
+        "Body": {"a": ("A",), "b": ("A",)},
+        "Leg": {"a": (), "b": (), "l1": ("L",), "l2": ("L",)},
+        "Top": {"a": (), "b": (), "t1": ("T",), "t2": ("T",)},
+        "Foot": {"l2": (), "f": ("F",)},
+        "Hand": {"t1": (), "h": ("H",)},
+    }
+    cut = frozenset({("Leg", "a", "l2"), ("Leg", "b", "l1"), ("Top", "a", "t2"), ("Top", "b", "t1")})
+    library = catalog(on, {"Leg": "Body", "Top": "Body", "Foot": "Leg", "Hand": "Top"}, start="a", cut=cut)
+    analysis = analyse(Source("A\nL\nT\nF and H\nend Hand"), library)
+    (one,) = analysis.diagnostics
+    assert one.code == "MS040"
+    assert one.span is not None
+    assert analysis.source.position(one.span.start)[0] == 4
+
+
+def test_a_part_that_runs_goes_on_from_its_own_motion_if_the_one_above_may_stay(catalog: Any, codes: Codes) -> None:
+    on = {"Body": {"a": ()}, "Top": {"a": (), "t": (), "u": ()}}
+    library = catalog(on, {"Top": "Body"}, start="a", cut=frozenset({("Top", "a", "u")}))
+    assert codes("a with Top t\na with Top u", library) == []
+    assert codes("a with Top u", library) == ["MS041"]
+
+
+def test_a_part_that_is_led_to_the_motion_of_its_parent_does_not_run(codes: Codes, reference: Any) -> None:
+    script = "Talk_02 with Upper-Body Talk_01\nTalk_01 with Upper-Body Talk_01\nend Upper-Body"
+    assert codes(script, reference) == ["MS043"]
+
+
+def test_after_a_mistake_a_part_beside_may_be_running(codes: Codes, hands: Any) -> None:
+    assert codes("WLAK\nLeft-Hand WAVE\nend Right-Hand", hands) == ["MS021"]
