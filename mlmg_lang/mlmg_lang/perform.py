@@ -8,11 +8,11 @@ from typing import Any
 
 from mlmg_lang.planning.resolved import Command, End, ResolvedPlan, Statement, Wait
 from mlmg_runtime.bvh.document import Bvh
-from mlmg_runtime.clips import bvh_from_poses, resample
+from mlmg_runtime.clips import bvh_from_poses, resample, same_rate
 from mlmg_runtime.errors import FileError, PlayError
 from mlmg_runtime.library import Library
 from mlmg_runtime.playing.performer import Performer
-from mlmg_runtime.playing.report import joints_from_timeline, tracks_from_timeline
+from mlmg_runtime.playing.report import joints_from_timeline, output_frame, tracks_from_timeline
 from mlmg_runtime.playing.synthesis import synthesize
 
 
@@ -50,9 +50,9 @@ def perform(
     """
     performer = Performer(library, plan.start)
     commands = []
-    for statement in plan.statements:
+    for number, statement in enumerate(plan.statements, start=1):
         begin = performer.now
-        is_last = statement is plan.statements[-1]
+        is_last = number == len(plan.statements)
         try:
             arrive = _execute(performer, statement, is_last)
         except PlayError as error:
@@ -67,15 +67,14 @@ def perform(
     poses = synthesize(library, timeline, blend)
     rate = frame_rate or library.frame_rate
     poses = resample(poses, library.frame_rate, rate)
+    ratio = 1.0 if same_rate(library.frame_rate, rate) else rate / library.frame_rate
     report = {
         "library": Path(library.path).name,
         "frame_rate": rate,
         "n_frames": poses.n_frames,
         "seed": seed,
-        "commands": [
-            _command_entry(plan, *entry, ratio=rate / library.frame_rate, n_frames=poses.n_frames) for entry in commands
-        ],
-        "tracks": tracks_from_timeline(library, timeline, rate),
+        "commands": [_command_entry(plan, *entry, ratio=ratio, n_frames=poses.n_frames) for entry in commands],
+        "tracks": tracks_from_timeline(library, timeline, ratio, poses.n_frames),
         "joints": joints_from_timeline(library, timeline),
     }
     return Performance(bvh_from_poses(library.skeleton, poses, 1.0 / rate, library.up), report)
@@ -111,7 +110,7 @@ def _command_entry(
     ratio: float,
     n_frames: int,
 ) -> dict[str, Any]:
-    begin, arrive, end = (min(round(frame * ratio), n_frames) for frame in (begin, arrive, end))
+    begin, arrive, end = (output_frame(frame, ratio, n_frames) for frame in (begin, arrive, end))
     text = " ".join(plan.source.slice(command.span).split())
     location = list(plan.source.location(command.span))
     return {"text": text, "span": location, "begin": begin, "arrive": arrive, "end": end, "motions": motions}

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 from mlmg_runtime.library import Library
@@ -10,30 +11,28 @@ from mlmg_runtime.playing.timeline import Blend, Clip, Segment, Timeline
 
 
 def tracks_from_timeline(
-    library: Library, timeline: Timeline, frame_rate: float
+    library: Library, timeline: Timeline, ratio: float, n_frames: int
 ) -> dict[str, list[dict[str, Any]]]:
-    """Return graph -> segments as JSON data; intervals [begin, end) are output frames at `frame_rate` a second.
+    """Return graph -> segments as JSON data; their intervals [begin, end) are output frames.
 
-    `speed` is source frames for each output frame; frames of motions are those of the library's clips.
+    Frames of motions are those of the library's clips: output frame t of a clip shows `clip_begin` + `speed` times
+    (t - `begin`). Segments that fall between two output frames are left out.
+
+    Parameters
+    ----------
+    ratio : output frames for each frame of the timeline. n_frames : in the output.
     """
-    ratio = frame_rate / library.frame_rate
-
-    def scaled(segment: Segment) -> dict[str, int]:
-        return {
-            "begin": round(segment.begin * ratio),
-            "end": round(min(segment.end, timeline.n_frames) * ratio),
-        }
-
     tracks = {}
     for name, segments in timeline.tracks.items():
         graph = library.by_name[name]
-        tracks[name] = [
-            _clip(graph, segment, scaled(segment), ratio)
-            if isinstance(segment, Clip)
-            else _blend(graph, segment, scaled(segment))
-            for segment in segments
-        ]
+        entries = [_entry(graph, segment, timeline, ratio, n_frames) for segment in segments]
+        tracks[name] = [entry for entry in entries if entry["begin"] < entry["end"]]
     return tracks
+
+
+def output_frame(frame: int, ratio: float, n_frames: int) -> int:
+    """Return the first output frame at or after a frame of the timeline, at most `n_frames`."""
+    return min(math.ceil(frame * ratio - 1e-6), n_frames)
 
 
 def joints_from_timeline(library: Library, timeline: Timeline) -> dict[str, list[str]]:
@@ -42,9 +41,21 @@ def joints_from_timeline(library: Library, timeline: Timeline) -> dict[str, list
     return {graph.name: [library.skeleton.names[joint] for joint in graph.joints] for graph in parts}
 
 
-def _clip(graph: MotionGraph, clip: Clip, interval: dict[str, int], ratio: float) -> dict[str, Any]:
-    motion = {"motion": graph.motions[clip.first.motion], "clip_begin": clip.first.frame}
-    return {"kind": "clip", **interval, **motion, "speed": round(clip.speed / ratio, 6)}
+def _entry(graph: MotionGraph, segment: Segment, timeline: Timeline, ratio: float, n_frames: int) -> dict[str, Any]:
+    end = n_frames if segment.end >= timeline.n_frames else output_frame(segment.end, ratio, n_frames)
+    interval = {"begin": output_frame(segment.begin, ratio, n_frames), "end": end}
+    if isinstance(segment, Clip):
+        return {"kind": "clip", **interval, **_clip(graph, segment, interval["begin"] / ratio, ratio)}
+    return _blend(graph, segment, interval)
+
+
+def _clip(graph: MotionGraph, clip: Clip, shown_from: float, ratio: float) -> dict[str, Any]:
+    first = round(clip.first.frame + clip.speed * (shown_from - clip.begin), 6)
+    return {
+        "motion": graph.motions[clip.first.motion],
+        "clip_begin": int(first) if first.is_integer() else first,
+        "speed": round(clip.speed / ratio, 6),
+    }
 
 
 def _blend(graph: MotionGraph, blend: Blend, interval: dict[str, int]) -> dict[str, Any]:
