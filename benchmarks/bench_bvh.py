@@ -69,15 +69,11 @@ def bvhtoolbox() -> Tool:
 
 
 def loadtxt() -> Tool:
-    return Tool(
-        "numpy.loadtxt", lambda path: np.loadtxt(io.BytesIO(motion_text(path))), note="the values alone"
-    )
+    return Tool("numpy.loadtxt", lambda path: np.loadtxt(io.BytesIO(motion_text(path))), note="the values alone")
 
 
 def fromstring() -> Tool:
-    return Tool(
-        "numpy.fromstring", lambda path: np.fromstring(motion_text(path), sep=" "), note="the values alone"
-    )
+    return Tool("numpy.fromstring", lambda path: np.fromstring(motion_text(path), sep=" "), note="the values alone")
 
 
 TOOLS = [mlmg, pybvh, pymotion, bvhtoolbox, loadtxt, fromstring]
@@ -97,9 +93,7 @@ def made_up(n_frames: int) -> Bvh:
             joints.append(Joint(f"Chain{chain}_{link}", parent, (2.5 * chain, 17.25, 0.0), TURNS, end_site))
     random = np.random.default_rng(0)
     time_s = np.arange(n_frames)[:, None] / 30.0
-    swing = random.uniform(5.0, 90.0, 96) * np.sin(
-        random.uniform(0.2, 4.0, 96) * time_s + random.uniform(0, 6, 96)
-    )
+    swing = random.uniform(5.0, 90.0, 96) * np.sin(random.uniform(0.2, 4.0, 96) * time_s + random.uniform(0, 6, 96))
     return Bvh(tuple(joints), 1.0 / 30.0, swing)
 
 
@@ -121,9 +115,7 @@ def seconds(tools: list[Tool], task: Callable[[Tool], object], rounds: int) -> d
     return best
 
 
-def print_table(
-    title: str, amount: float, unit: str, best: dict[str, float | str], notes: dict[str, str]
-) -> float:
+def print_table(title: str, amount: float, unit: str, best: dict[str, float | str], notes: dict[str, str]) -> float:
     """Print speeds and how they compare to ours, and return ours."""
     own = best["mlmg"]
     assert isinstance(own, float), own
@@ -160,9 +152,7 @@ def print_agreement(path: Path) -> None:
 
 
 def main() -> int:
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--frames", type=int, default=5000)
     parser.add_argument("--rounds", type=int, default=7)
     options = parser.parse_args()
@@ -174,13 +164,9 @@ def main() -> int:
         size_mb = path.stat().st_size / 1e6
         print(f"{size_mb:.1f} MB, {options.frames} frames of 96 channels, best of {options.rounds}")
         read = seconds(tools, lambda tool: tool.read(path), options.rounds)
-        documents = {
-            tool.name: tool.read(path) for tool in tools if tool.write and isinstance(read[tool.name], float)
-        }
+        documents = {tool.name: tool.read(path) for tool in tools if tool.write and isinstance(read[tool.name], float)}
         writers = [tool for tool in tools if tool.name in documents]
-        written = seconds(
-            writers, lambda tool: tool.write and tool.write(documents[tool.name], out), options.rounds
-        )
+        written = seconds(writers, lambda tool: tool.write and tool.write(documents[tool.name], out), options.rounds)
         mb_s = print_table("reading", size_mb, "MB/s", read | missing, notes)
         frames_s = print_table("writing", options.frames, "frames/s", written | missing, notes)
         print_agreement(path)

@@ -58,6 +58,7 @@ def _line(source: Source, line: int) -> str:
 
 
 def _units(text: str, encoding: Encoding) -> int:
-    return len(text.encode(f"{encoding}-le" if encoding != "utf-8" else encoding, "surrogatepass")) // (
-        _BYTES_A_UNIT[encoding]
+    return (
+        len(text.encode(f"{encoding}-le" if encoding != "utf-8" else encoding, "surrogatepass"))
+        // (_BYTES_A_UNIT[encoding])
     )

@@ -83,9 +83,7 @@ def point_cloud(points: FloatArray, weights: FloatArray, window: int, dtype: typ
         If `weights` does not fit the points.
     """
     if points.ndim != 3 or points.shape[2] != 3 or weights.shape != points.shape[1:2]:
-        raise ShapeError(
-            f"expected points (n, m, 3) and weights (m,), found {points.shape} and {weights.shape}"
-        )
+        raise ShapeError(f"expected points (n, m, 3) and weights (m,), found {points.shape} and {weights.shape}")
     ground = points[..., 0] + 1j * points[..., 2]
     total = float(weights.sum())
     centroids = ground @ weights / total
@@ -123,9 +121,7 @@ def window_distances(a: PointCloud, b: PointCloud) -> Matrix:
         If the two were made for different windows or points.
     """
     if a.window != b.window or a.limbs.shape[1] != b.limbs.shape[1]:
-        raise ShapeError(
-            f"windows of {a.window} x {a.limbs.shape[1]} and {b.window} x {b.limbs.shape[1]} points"
-        )
+        raise ShapeError(f"windows of {a.window} x {a.limbs.shape[1]} and {b.window} x {b.limbs.shape[1]} points")
     ground = _diagonal_sums(a.limbs.conj() @ b.limbs.T, a.window)
     ground += a.paths.conj() @ b.paths.T
     distance: Matrix = a.energy[:, None] + b.energy[None, :]

@@ -143,9 +143,7 @@ def normalized(q: FloatArray) -> FloatArray:
 def angle_between(a: FloatArray, b: FloatArray) -> FloatArray:
     """Return the angles in radians, 0 to pi, by which `a` and `b` differ; shapes (..., 4), broadcast."""
     flip = np.where(np.sum(a * b, axis=-1, keepdims=True) < 0.0, -1.0, 1.0)
-    return np.asarray(
-        4.0 * np.arctan2(np.linalg.norm(a - flip * b, axis=-1), np.linalg.norm(a + flip * b, axis=-1))
-    )
+    return np.asarray(4.0 * np.arctan2(np.linalg.norm(a - flip * b, axis=-1), np.linalg.norm(a + flip * b, axis=-1)))
 
 
 def continuous_euler(angles_rad: FloatArray) -> FloatArray:

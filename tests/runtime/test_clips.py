@@ -121,9 +121,7 @@ def test_the_travel_joint_can_go_and_turn_everywhere(
 def test_written_angles_go_on_through_full_turns_and_through_the_singularity() -> None:
     joints = (Joint("Hips", -1, (0.0, 0.0, 0.0), (*POSITIONS, *TURNS)),)
     time = np.linspace(0.0, 1.0, 100)[:, None]
-    frames = np.concatenate(
-        (0.0 * time + [0.0, 0.0, 0.0], [5.0, -80.0, 20.0] + time * [400.0, 190.0, -900.0]), 1
-    )
+    frames = np.concatenate((0.0 * time + [0.0, 0.0, 0.0], [5.0, -80.0, 20.0] + time * [400.0, 190.0, -900.0]), 1)
     bvh = Bvh(joints, FRAME_TIME_S, frames)
     written = bvh_from_poses(skeleton_from_bvh(bvh), poses_from_bvh(bvh), FRAME_TIME_S)
     np.testing.assert_allclose(written.frames, frames, atol=1e-6)
@@ -136,9 +134,7 @@ def spinning(n_frames: int, rate: float) -> Poses:
     return Poses(rotations.about_axis("Y", 3.0 * time_s)[:, None], positions)
 
 
-@pytest.mark.parametrize(
-    ("rate", "new_rate", "n_frames"), [(30, 60, 81), (30, 24, 33), (120, 30, 11), (30, 45, 61)]
-)
+@pytest.mark.parametrize(("rate", "new_rate", "n_frames"), [(30, 60, 81), (30, 24, 33), (120, 30, 11), (30, 45, 61)])
 def test_resampled_an_even_movement_keeps_its_pace(rate: float, new_rate: float, n_frames: int) -> None:
     result = resample(spinning(41, rate), rate, new_rate)
     expected = spinning(n_frames, new_rate)
@@ -151,9 +147,7 @@ def test_a_quarter_of_the_frames_is_every_fourth_frame(random_bvh: Callable[[int
     poses = poses_from_bvh(random_bvh(3))
     result = resample(poses, 120.0, 30.0)
     np.testing.assert_allclose(result.positions, poses.positions[::4], atol=1e-12)
-    np.testing.assert_allclose(
-        rotations.angle_between(result.rotations, poses.rotations[::4]), 0.0, atol=1e-12
-    )
+    np.testing.assert_allclose(rotations.angle_between(result.rotations, poses.rotations[::4]), 0.0, atol=1e-12)
 
 
 def test_nothing_is_resampled_to_its_own_rate_however_it_was_rounded() -> None:

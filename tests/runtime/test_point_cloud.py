@@ -53,19 +53,14 @@ def naive_distance(a: FloatArray, b: FloatArray, weights: FloatArray) -> float:
     return cost_of(a, b, weights, (theta, x0, z0))
 
 
-def cost_of(
-    a: FloatArray, b: FloatArray, weights: FloatArray, transform: tuple[float, float, float]
-) -> float:
+def cost_of(a: FloatArray, b: FloatArray, weights: FloatArray, transform: tuple[float, float, float]) -> float:
     return float(np.sum(weights[:, None] * (a - moved(b, *transform)) ** 2))
 
 
 def all_naive(a: FloatArray, b: FloatArray, weights: FloatArray, window: int) -> FloatArray:
     rows, columns = len(a) - window + 1, len(b) - window + 1
     return np.array(
-        [
-            [naive_distance(a[i : i + window], b[j : j + window], weights) for j in range(columns)]
-            for i in range(rows)
-        ]
+        [[naive_distance(a[i : i + window], b[j : j + window], weights) for j in range(columns)] for i in range(rows)]
     )
 
 

@@ -76,9 +76,7 @@ def test_angles_of_a_rotation_are_those_of_scipy(order: str) -> None:
 @pytest.mark.parametrize("order", THREE_AXES)
 @pytest.mark.parametrize("distance", [0.0, 1e-12, 1e-9, 1e-7, 1e-4])
 @pytest.mark.parametrize("middle", [QUARTER, -QUARTER])
-def test_near_the_singularity_the_angles_still_make_the_rotation(
-    order: str, distance: float, middle: float
-) -> None:
+def test_near_the_singularity_the_angles_still_make_the_rotation(order: str, distance: float, middle: float) -> None:
     angles = np.random.default_rng(0).uniform(-3.0, 3.0, size=(100, 3))
     angles[:, 1] = middle * (1.0 - distance)
     q = rotations.from_euler(order, angles)

@@ -14,9 +14,7 @@ ALL = ("Xposition", "Yposition", "Zposition", *TURNS)
 
 
 def skeleton(*joints: tuple[str, int, tuple[str, ...]]) -> Skeleton:
-    return Skeleton(
-        tuple(Joint(name, parent, (1.0, 2.0, 3.0), channels) for name, parent, channels in joints)
-    )
+    return Skeleton(tuple(Joint(name, parent, (1.0, 2.0, 3.0), channels) for name, parent, channels in joints))
 
 
 BODY = skeleton(

@@ -97,6 +97,7 @@ class _Cutter:
         self._line: list[Token] = []
         self._frames = [_Frame((), Span(0, 0))]
         self._too_deep = 0
+        self._end = 0
         self._diagnostics: list[Diagnostic] = []
 
     def take(self, token: Token) -> None:
@@ -108,6 +109,7 @@ class _Cutter:
         elif self._too_deep == 0:
             self._take_inside(token)
         self.line_ended = False
+        self._end = token.span.end
 
     def _take_inside(self, token: Token) -> None:
         if self.line_ended and token.type not in CONTINUES:
@@ -128,7 +130,7 @@ class _Cutter:
         while len(self._frames) > 1:
             brace = self._frames[-1].brace
             self._say("this `{` is never closed", brace, "write `}` where its statements end")
-            self._end_block(brace.end)
+            self._end_block(self._end)
         return Layout(tuple(self._frames[0].branches[0]), tuple(self._diagnostics))
 
     def _open(self, token: Token) -> None:

@@ -38,16 +38,12 @@ def find_candidates(distances: Matrix, *, within_motion: bool, window: int) -> C
         nothing = np.empty(0, dtype=np.int64)
         return Candidates(nothing, nothing, np.empty(0))
     padded = np.pad(distances, 1, constant_values=np.inf)
-    least = (
-        _share_no_frame(distances.shape[0], window) if within_motion else np.ones(distances.shape, dtype=bool)
-    )
+    least = _share_no_frame(distances.shape[0], window) if within_motion else np.ones(distances.shape, dtype=bool)
     for row in (-1, 0, 1):
         for column in (-1, 0, 1):
             if (row, column) == (0, 0):
                 continue
-            neighbour = padded[
-                1 + row : 1 + row + distances.shape[0], 1 + column : 1 + column + distances.shape[1]
-            ]
+            neighbour = padded[1 + row : 1 + row + distances.shape[0], 1 + column : 1 + column + distances.shape[1]]
             least &= distances < neighbour if (row, column) < (0, 0) else distances <= neighbour
     i, b = np.nonzero(least)
     return Candidates(i, b, distances[i, b].astype(np.float64))

@@ -14,9 +14,7 @@ from mlmg_runtime.skeleton import Skeleton
 OMS_BLOCK = 20
 
 
-def graph_joints(
-    configuration: LibraryConfiguration, graph: GraphConfiguration, skeleton: Skeleton
-) -> frozenset[int]:
+def graph_joints(configuration: LibraryConfiguration, graph: GraphConfiguration, skeleton: Skeleton) -> frozenset[int]:
     """Return the indices of a graph's joints.
 
     Raises
@@ -32,9 +30,7 @@ def graph_joints(
     for name in graph.weights:
         _subtree(configuration, graph, skeleton, name)
     if not any(graph.weights.get(skeleton.names[joint], 1.0) > 0 for joint in wanted):
-        raise ConfigurationError(
-            configuration.path, graph.line, f"no joint is left for the graph `{graph.name}`"
-        )
+        raise ConfigurationError(configuration.path, graph.line, f"no joint is left for the graph `{graph.name}`")
     return wanted
 
 

@@ -40,9 +40,7 @@ def _check_tree(joints: tuple[Joint, ...]) -> None:
         while chain and chain[-1] != joint.parent:
             chain.pop()
         if (index > 0) != bool(chain) or (index == 0 and joint.parent != -1):
-            raise ShapeError(
-                f"expected one tree of joints, depth first, found parent {joint.parent} of joint {index}"
-            )
+            raise ShapeError(f"expected one tree of joints, depth first, found parent {joint.parent} of joint {index}")
         chain.append(index)
 
 
@@ -58,27 +56,19 @@ def _check_names(names: list[str]) -> None:
 
 def _check_joint(joint: Joint) -> None:
     if len(_CHANNELS.intersection(joint.channels)) < len(joint.channels):
-        raise ShapeError(
-            f"expected different channels of BVH files, found {joint.channels} in joint {joint.name!r}"
-        )
+        raise ShapeError(f"expected different channels of BVH files, found {joint.channels} in joint {joint.name!r}")
     if not all(map(math.isfinite, (*joint.offset, *(joint.end_site or ())))):
-        raise ShapeError(
-            f"expected finite offsets, found {joint.offset}, {joint.end_site} in joint {joint.name!r}"
-        )
+        raise ShapeError(f"expected finite offsets, found {joint.offset}, {joint.end_site} in joint {joint.name!r}")
 
 
 def _check_frames(bvh: Bvh) -> None:
     shape = bvh.frames.shape
     if len(shape) != 2 or shape[1] != bvh.n_channels or bvh.frames.size == 0:
-        raise ShapeError(
-            f"expected frames of shape (1 or more, {bvh.n_channels or '1 or more'}), found {shape}"
-        )
+        raise ShapeError(f"expected frames of shape (1 or more, {bvh.n_channels or '1 or more'}), found {shape}")
     finite = np.isfinite(bvh.frames)
     if not finite.all():
         frame, column = np.argwhere(~finite)[0]
-        channels = [
-            f"{channel} of joint {joint.name!r}" for joint in bvh.joints for channel in joint.channels
-        ]
+        channels = [f"{channel} of joint {joint.name!r}" for joint in bvh.joints for channel in joint.channels]
         raise ShapeError(
             f"expected finite values, found {bvh.frames[frame, column]} in frame {frame}, {channels[column]}"
         )

@@ -27,9 +27,7 @@ def text_from_rows(rows: FloatArray, n_decimals: int) -> Iterator[bytes]:
         if np.abs(scaled).max() < 2.0**53:
             yield _text_from_integers(scaled.astype(np.int64), n_decimals)
         else:
-            yield "".join(
-                " ".join(f"{value:.{n_decimals}f}" for value in row) + "\n" for row in block
-            ).encode()
+            yield "".join(" ".join(f"{value:.{n_decimals}f}" for value in row) + "\n" for row in block).encode()
 
 
 def _text_from_integers(scaled: NDArray[np.int64], n_decimals: int) -> bytes:

@@ -78,9 +78,7 @@ class _Hierarchy:
         if not name:
             raise self._lines.error("the name of the joint", "none")
         if name in self._line_of_name:
-            raise self._lines.error(
-                "a new joint name", f"{shown(name)}, as in line {self._line_of_name[name]}"
-            )
+            raise self._lines.error("a new joint name", f"{shown(name)}, as in line {self._line_of_name[name]}")
         self._expect("{")
         parent = self._open[-1].index if self._open else -1
         self._open.append(_OpenJoint(name, line, len(self._line_of_name), parent))
@@ -91,9 +89,7 @@ class _Hierarchy:
             raise self._lines.error(f"OFFSET in joint {shown(joint.name)}", "none", joint.line)
         if joint.channels is None:
             raise self._lines.error(f"CHANNELS in joint {shown(joint.name)}", "none", joint.line)
-        self._closed[joint.index] = Joint(
-            joint.name, joint.parent, joint.offset, joint.channels, joint.end_site
-        )
+        self._closed[joint.index] = Joint(joint.name, joint.parent, joint.offset, joint.channels, joint.end_site)
         self._open.pop()
 
     def _take_end_site(self, joint: _OpenJoint) -> None:
@@ -108,9 +104,7 @@ class _Hierarchy:
         if joint.end_site is None:
             joint.end_site = offset
         else:
-            self._lines.warnings.append(
-                f"line {line}: a second End Site in joint {shown(joint.name)} is left out"
-            )
+            self._lines.warnings.append(f"line {line}: a second End Site in joint {shown(joint.name)} is left out")
 
     def _offset(self, rest: str) -> _Offset:
         words = rest.split()

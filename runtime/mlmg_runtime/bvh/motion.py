@@ -39,9 +39,7 @@ def motion_from_lines(lines: Lines, n_channels: int) -> tuple[float, FloatArray]
     if len(frames) < n_frames:
         raise lines.error(f"{n_frames} frames, as announced", str(len(frames)), line)
     if len(frames) > n_frames:
-        lines.warnings.append(
-            f"line {line} announces {n_frames} frames, {len(frames)} are there: the rest is left out"
-        )
+        lines.warnings.append(f"line {line} announces {n_frames} frames, {len(frames)} are there: the rest is left out")
     return frame_time_s, frames[:n_frames]
 
 

@@ -37,6 +37,4 @@ def demo_clips() -> dict[str, Bvh]:
     beginning, by which a person told to walk on would stop and start.
     """
     skeleton = human_skeleton()
-    return {
-        name: bvh_from_poses(skeleton, poses(perform()), 1.0 / FRAME_RATE) for name, perform in _PERFORMANCES
-    }
+    return {name: bvh_from_poses(skeleton, poses(perform()), 1.0 / FRAME_RATE) for name, perform in _PERFORMANCES}

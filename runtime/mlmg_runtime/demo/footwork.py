@@ -132,9 +132,7 @@ def footwork(
     left_share = _left_share(times_s, steps, relax_s, lean)
     share = np.stack((left_share, 1.0 - left_share), axis=-1)
     press = prints.copy()
-    press[..., 1] += np.stack(
-        [_press_forward(times_s, steps, side, relax_s) for side in (LEFT, RIGHT)], axis=-1
-    )
+    press[..., 1] += np.stack([_press_forward(times_s, steps, side, relax_s) for side in (LEFT, RIGHT)], axis=-1)
     pressure = np.sum(share[..., None] * press, axis=1)
     if evenness_s:
         pressure[:, 1] = curves.blurred(pressure[:, 1], evenness_s)
@@ -195,9 +193,7 @@ def _tipped(pitch_rad: FloatArray) -> tuple[FloatArray, FloatArray]:
     return up * less + forward * sine, forward * less - up * sine
 
 
-def _left_share(
-    times_s: FloatArray, steps: Sequence[Step], relax_s: float, lean: FloatArray | float
-) -> FloatArray:
+def _left_share(times_s: FloatArray, steps: Sequence[Step], relax_s: float, lean: FloatArray | float) -> FloatArray:
     events = [event for step in steps for event in (step.lift_s, step.land_s)]
     carries = [value for step in steps for value in [float(step.foot == RIGHT)] * 2]
     share = curves.relaxing(times_s, events, carries, 0.5, relax_s)

@@ -110,7 +110,5 @@ def nods(times_s: FloatArray, gestures: Sequence[Gesture], size_deg: float = 4.0
     for gesture in gestures:
         track += size_deg * curves.bump((times_s - gesture.stroke_s + 0.35) / 0.7)
         for beat in range(gesture.n_beats):
-            track += (
-                0.5 * size_deg * curves.bump((times_s - gesture.stroke_s - (beat + 0.7) * BEAT_S) / BEAT_S)
-            )
+            track += 0.5 * size_deg * curves.bump((times_s - gesture.stroke_s - (beat + 0.7) * BEAT_S) / BEAT_S)
     return track

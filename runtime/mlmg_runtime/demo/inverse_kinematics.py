@@ -24,9 +24,7 @@ class LegPose:
     knee_rad: FloatArray
 
 
-def leg_pose(
-    hip: FloatArray, ankle: FloatArray, forward: FloatArray, thigh_cm: float, shin_cm: float
-) -> LegPose:
+def leg_pose(hip: FloatArray, ankle: FloatArray, forward: FloatArray, thigh_cm: float, shin_cm: float) -> LegPose:
     """Return how a leg, straight down at rest and with a knee that is a hinge about x, reaches its ankle.
 
     The law of cosines. What is out of reach is reached for with a straight leg.

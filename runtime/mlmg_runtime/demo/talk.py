@@ -76,8 +76,6 @@ def _talking(
     feet = footwork(times_s, plan.steps, lean=noise.drift(times_s, 0.06, 2.5))
     nod = nods(times_s, [*left, *right])
     words = noise.drifts(times_s, 1.0, 1.2, 3).T
-    speaking = trunk(
-        glance=glance + words[0], nod=nod + words[1], tilt=words[2], turn=0.3 * glance, bend=0.35 * nod
-    )
+    speaking = trunk(glance=glance + words[0], nod=nod + words[1], tilt=words[2], turn=0.3 * glance, bend=0.35 * nod)
     left_arm, right_arm = (gesturing(times_s, gestures, by) for gestures in (left, right))
     return performed(times_s, feet, noise, trunk_deg=speaking, left=left_arm, right=right_arm)

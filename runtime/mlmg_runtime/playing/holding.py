@@ -39,9 +39,7 @@ def stay(
             path = find_path(graph, position, [home], allowed)
             way = () if path is None else path.transitions
         segments = (
-            play_along(way, graph.window, position, time)
-            if way
-            else _on_the_spot(library, graph, home, position, time)
+            play_along(way, graph.window, position, time) if way else _on_the_spot(library, graph, home, position, time)
         )
         for segment in segments:
             yield segment
@@ -53,16 +51,12 @@ def latest_loop(graph: MotionGraph, motion: int) -> Transition | None:
     """Return the motion's backward self-transition that leaves latest; of several, the smoothest."""
     first, end = graph.first_edge[motion : motion + 2]
     backward = [
-        edge
-        for edge in graph.edges[first:end]
-        if edge.dst_motion == motion and edge.dst_frame < edge.src_frame
+        edge for edge in graph.edges[first:end] if edge.dst_motion == motion and edge.dst_frame < edge.src_frame
     ]
     return max(backward, key=lambda edge: (edge.src_frame, -edge.cost), default=None)
 
 
-def _on_the_spot(
-    library: Library, graph: MotionGraph, home: int, position: Position, time: int
-) -> list[Segment]:
+def _on_the_spot(library: Library, graph: MotionGraph, home: int, position: Position, time: int) -> list[Segment]:
     """Return the clip up to where a later window is most like an earlier one, and a blend from the one to the other."""
     name = graph.motions[home]
     if position.motion != home:

@@ -83,13 +83,7 @@ class Performer:
             If no candidate of a graph can be reached.
         """
         named = [graph for graph, _ in layers]
-        self._end(
-            [
-                g
-                for g in self._running
-                if g not in named and any(a in named for a in self.library.ancestors(g))
-            ]
-        )
+        self._end([g for g in self._running if g not in named and any(a in named for a in self.library.ancestors(g))])
         for graph, candidates in layers:
             if self.motion(graph) in candidates:
                 continue
@@ -188,9 +182,7 @@ class Performer:
         best: tuple[int, Position, Path] | None = None
         seen: set[Position] = set()
         for clip in self._clips_above(graph):
-            if clip.first in seen or (
-                best is not None and clip.begin + graph.window > best[0] + best[2].n_frames
-            ):
+            if clip.first in seen or (best is not None and clip.begin + graph.window > best[0] + best[2].n_frames):
                 break
             seen.add(clip.first)
             path = find_path(graph, clip.first, [target])
@@ -270,9 +262,7 @@ class Performer:
 
     def _allowed(self, graph: str, joining: MotionGraph | None = None) -> frozenset[int]:
         """Return the motions that a way round on `graph` may pass: those that all running parts below it are on."""
-        below = [
-            track.graph for name, track in self._running.items() if graph in self.library.ancestors(name)
-        ]
+        below = [track.graph for name, track in self._running.items() if graph in self.library.ancestors(name)]
         below += [joining] if joining is not None else []
         own = self.library.by_name[graph]
         return frozenset(
@@ -292,6 +282,4 @@ def _cut(segment: Segment, end: int) -> Segment:
 
 def _unreachable(graph: MotionGraph, motion: str, candidates: Sequence[str]) -> PlayError:
     names = ", ".join(candidates)
-    return PlayError(
-        f"no walk on {graph.name} leads from {motion} to {names}; see `mlmg info` for what was lost"
-    )
+    return PlayError(f"no walk on {graph.name} leads from {motion} to {names}; see `mlmg info` for what was lost")

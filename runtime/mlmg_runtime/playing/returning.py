@@ -67,9 +67,7 @@ def _ways(
     graph: MotionGraph, position: Position, time: int, deadline: int
 ) -> Iterator[tuple[tuple[Transition, ...], _Landing]]:
     """Yield paths of any number of transitions, with the times at which each can have ended."""
-    pending: list[tuple[tuple[Transition, ...], Position, _Landing]] = [
-        ((), position, _Landing(time, time, time))
-    ]
+    pending: list[tuple[tuple[Transition, ...], Position, _Landing]] = [((), position, _Landing(time, time, time))]
     while pending:
         way, at, lands = pending.pop()
         yield way, lands

@@ -85,9 +85,7 @@ def _whole_body(library: Library, graph: MotionGraph, timeline: Timeline, blend:
     pool = _pool(library, graph, segments)
     score = _score(segments, pool, timeline.n_frames, WEIGHTS[blend])
     source, target = _placements(library, graph, segments, pool)
-    shown = _placed(
-        _sampled(pool.poses, score.rows), library.skeleton.travel, _of_each(source, score.segment)
-    )
+    shown = _placed(_sampled(pool.poses, score.rows), library.skeleton.travel, _of_each(source, score.segment))
     if len(score.blended):
         at = score.blended
         placement = _of_each(target, score.segment[at])

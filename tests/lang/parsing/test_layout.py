@@ -89,3 +89,9 @@ def test_no_token_is_lost_or_made_up(text: str) -> None:
 
     collect(lay_out(tokens).items)
     assert [word for word in flat if word != "|"] == [token.text for token in tokens if token.type in kept]
+
+
+def test_a_block_that_is_not_closed_reaches_to_the_end() -> None:
+    (block,) = lay_out(tokenize(Source("repeat 2 { A\n B # c"))).items
+    assert isinstance(block, Block)
+    assert (block.span.start, block.span.end) == (0, 15)

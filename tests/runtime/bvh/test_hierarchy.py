@@ -29,9 +29,7 @@ def test_siblings_and_nephews_have_the_parents_that_the_braces_say(changed: Chan
     ]
 
 
-@pytest.mark.parametrize(
-    "name", ["left.arm", "Left Arm 2", "mixamorig:Spine", "a  b", "走", "JOINT", "End", "MOTION"]
-)
+@pytest.mark.parametrize("name", ["left.arm", "Left Arm 2", "mixamorig:Spine", "a  b", "走", "JOINT", "End", "MOTION"])
 def test_a_name_is_the_rest_of_its_line(name: str, changed: Changed) -> None:
     assert changed("Spine", name).joints[1].name == name
 
@@ -116,9 +114,7 @@ def test_case_and_the_place_of_braces_do_not_matter(change: Callable[[str], str]
         ("MOTION", "ROOT b", "16: expected MOTION after the one skeleton of the file, found `ROOT b`"),
     ],
 )
-def test_of_a_wrong_hierarchy_the_error_says_where_and_what(
-    old: str, new: str, message: str, changed: Changed
-) -> None:
+def test_of_a_wrong_hierarchy_the_error_says_where_and_what(old: str, new: str, message: str, changed: Changed) -> None:
     if not message:
         changed(old, new)
         return

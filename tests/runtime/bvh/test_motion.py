@@ -50,9 +50,7 @@ def test_one_frame_is_a_motion(changed: Changed) -> None:
 
 def test_values_are_the_nearest_doubles(changed: Changed) -> None:
     words = ["0.1", "-123.456789012345678", "5e-324", "1.7976931348623157e308", "179.99999999999997"]
-    np.testing.assert_array_equal(
-        changed("1 2 3 4 5 6", " ".join([*words, "6"])).frames[0, :5], [*map(float, words)]
-    )
+    np.testing.assert_array_equal(changed("1 2 3 4 5 6", " ".join([*words, "6"])).frames[0, :5], [*map(float, words)])
 
 
 @pytest.mark.parametrize(
@@ -98,9 +96,7 @@ def test_values_are_the_nearest_doubles(changed: Changed) -> None:
         ("15 16", '15 "16"', '20: expected a finite number, found `"16"`'),
     ],
 )
-def test_of_a_wrong_motion_the_error_says_where_and_what(
-    old: str, new: str, message: str, changed: Changed
-) -> None:
+def test_of_a_wrong_motion_the_error_says_where_and_what(old: str, new: str, message: str, changed: Changed) -> None:
     with pytest.raises(BvhError) as caught:
         changed(old, new)
     assert str(caught.value) == f"clip.bvh:{message}"
@@ -139,8 +135,6 @@ BLANKS = st.sampled_from([" ", "  ", "\t", "\v", "\f", "\x1c", "\u00a0", "#", ",
     st.lists(st.tuples(WORDS, BLANKS, WORDS, BLANKS, WORDS), max_size=3),
     st.sampled_from(["", "\n", "\n \n\t"]),
 )
-def test_the_fast_way_and_the_way_line_by_line_agree_on_whatever_text(
-    rows: list[tuple[str, ...]], end: str
-) -> None:
+def test_the_fast_way_and_the_way_line_by_line_agree_on_whatever_text(rows: list[tuple[str, ...]], end: str) -> None:
     data = ("1 2 3\n" + "\n".join("".join(row) for row in rows) + end).encode()
     assert outcome(motion._frames, data) == outcome(motion._frames_one_by_one, data)

@@ -99,9 +99,7 @@ def test_a_damaged_file_is_read_or_refused_and_nothing_else(data: st.DataObject,
     whole = text.encode()
     start = data.draw(st.integers(0, len(whole)))
     end = data.draw(st.integers(start, min(len(whole), start + 30)))
-    patch = data.draw(
-        st.one_of(st.binary(max_size=4), st.sampled_from([b"{", b"}", b"\n", b" ", b"9", b"ROOT x"]))
-    )
+    patch = data.draw(st.one_of(st.binary(max_size=4), st.sampled_from([b"{", b"}", b"\n", b" ", b"9", b"ROOT x"])))
     result = content_or_error(whole[:start] + patch + whole[end:])
     if isinstance(result, BvhError):
         assert result.path == "clip.bvh"

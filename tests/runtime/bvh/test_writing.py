@@ -15,9 +15,7 @@ from mlmg_runtime.skeleton import world_positions
 
 CHANNELS = ("Xposition", "Yposition", "Zposition", "Xrotation", "Yrotation", "Zrotation")
 BLANKS = " \t\v\f"
-NAMES = st.text(max_size=8).filter(
-    lambda name: name and name == name.strip(BLANKS) and not set(name) & set("{}\r\n\0")
-)
+NAMES = st.text(max_size=8).filter(lambda name: name and name == name.strip(BLANKS) and not set(name) & set("{}\r\n\0"))
 
 
 def written(document: Bvh) -> bytes:
@@ -45,9 +43,7 @@ def documents(draw: st.DrawFn, largest: float = 1e4) -> Bvh:
         joints.append(Joint(name, chain[-1] if chain else -1, draw(offsets), tuple(channels), end_site))
         chain.append(index)
     n_channels = sum(len(joint.channels) for joint in joints)
-    frames = draw(
-        st.lists(st.lists(numbers, min_size=n_channels, max_size=n_channels), min_size=1, max_size=3)
-    )
+    frames = draw(st.lists(st.lists(numbers, min_size=n_channels, max_size=n_channels), min_size=1, max_size=3))
     return Bvh(tuple(joints), draw(st.floats(1e-6, 1e3)), np.array(frames))
 
 
@@ -87,18 +83,14 @@ def test_a_file_is_laid_out_as_usual(text: str) -> None:
 def test_offsets_and_the_frame_time_are_written_to_the_last_digit_without_exponents(text: str) -> None:
     document = read_bytes(text.encode(), "clip.bvh")
     offset = (1e-7, -1.0 / 3.0, 1e20)
-    odd = replace(
-        document, joints=(replace(document.joints[0], offset=offset), document.joints[1]), frame_time_s=1e-5
-    )
+    odd = replace(document, joints=(replace(document.joints[0], offset=offset), document.joints[1]), frame_time_s=1e-5)
     data = written(odd)
     assert b"OFFSET 0.0000001 -0.3333333333333333 100000000000000000000.0\n" in data
     assert b"Frame Time: 0.00001\n" in data
     assert read_bytes(data, "clip.bvh").joints == odd.joints
 
 
-def test_a_file_and_a_stream_get_the_same_bytes_whatever_the_encoding_of_the_stream(
-    text: str, tmp_path: Path
-) -> None:
+def test_a_file_and_a_stream_get_the_same_bytes_whatever_the_encoding_of_the_stream(text: str, tmp_path: Path) -> None:
     document = read_bytes(text.replace("Spine", "走").encode(), "clip.bvh")
     path = tmp_path / "clip.bvh"
     bvh.write(document, path)
@@ -110,9 +102,7 @@ def test_a_file_and_a_stream_get_the_same_bytes_whatever_the_encoding_of_the_str
     assert path.read_bytes() == written(document)
 
 
-def test_what_cannot_be_written_leaves_the_file_and_the_folder_as_they_were(
-    text: str, tmp_path: Path
-) -> None:
+def test_what_cannot_be_written_leaves_the_file_and_the_folder_as_they_were(text: str, tmp_path: Path) -> None:
     path = tmp_path / "clip.bvh"
     path.write_text("precious")
     document = read_bytes(text.encode(), "clip.bvh")

@@ -41,9 +41,7 @@ def test_the_feet_are_where_the_footwork_has_them_whatever_the_pelvis_does() -> 
 def test_no_leg_is_straighter_than_it_may_be() -> None:
     world = positions(stepping(), trunk=trunk(pelvis_list=6.0 * np.sin(4.0 * TIMES)))
     for side in ("Left", "Right"):
-        thigh, shin = (
-            world[f"{side}{a}"] - world[f"{side}{b}"] for a, b in (("UpLeg", "Leg"), ("Leg", "Foot"))
-        )
+        thigh, shin = (world[f"{side}{a}"] - world[f"{side}{b}"] for a, b in (("UpLeg", "Leg"), ("Leg", "Foot")))
         cosine = np.sum(thigh * shin, axis=-1) / 43.0 / 42.0
         assert np.degrees(np.arccos(cosine)).min() > STRAIGHTEST_KNEE_DEG - 1e-6
 
@@ -54,9 +52,7 @@ def test_the_same_angles_make_mirror_images_of_both_arms() -> None:
     )
     world = positions(footwork(TIMES, []), left=pose, right=pose)
     for joint in ("Arm", "ForeArm", "Hand", "HandIndex", "HandPinky"):
-        np.testing.assert_allclose(
-            world[f"Left{joint}"] * (-1.0, 1.0, 1.0), world[f"Right{joint}"], atol=1e-9
-        )
+        np.testing.assert_allclose(world[f"Left{joint}"] * (-1.0, 1.0, 1.0), world[f"Right{joint}"], atol=1e-9)
 
 
 @pytest.mark.parametrize(
@@ -84,8 +80,7 @@ def test_an_angle_of_the_left_arm_leads_where_its_name_says(angles, joint: str, 
 )
 def test_an_angle_of_the_trunk_leads_where_its_name_says(angles, axis: int, sign: float) -> None:
     moved = [
-        positions(footwork(TIMES, []), trunk=trunk(nod=np.zeros(90), **share))["Neck"][0]
-        for share in ({}, angles)
+        positions(footwork(TIMES, []), trunk=trunk(nod=np.zeros(90), **share))["Neck"][0] for share in ({}, angles)
     ]
     assert sign * (moved[1] - moved[0])[axis] > 3.0
 

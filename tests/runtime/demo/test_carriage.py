@@ -54,9 +54,7 @@ def test_a_stance_that_lasts_swings_no_arm() -> None:
 
 def test_what_is_meant_comes_on_top() -> None:
     meant = HANGING + arm(elbow=40.0)
-    plain, raised = (
-        performed(TIMES, footwork(TIMES, []), Noise(0), left=pose).left for pose in (HANGING, meant)
-    )
+    plain, raised = (performed(TIMES, footwork(TIMES, []), Noise(0), left=pose).left for pose in (HANGING, meant))
     np.testing.assert_allclose(raised - plain, np.tile(arm(elbow=40.0), (300, 1)), atol=1e-9)
 
 

@@ -79,10 +79,7 @@ def test_a_planted_foot_slides_by_less_than_a_centimetre(clips, plants, side: st
 
 def test_one_foot_at_least_is_always_planted(clips) -> None:
     for name, clip in clips.items():
-        low = [
-            (clip.heel(side)[:, 1] < 0.5) | (clip.at(f"{side}ToeBase")[:, 1] < 2.5)
-            for side in ("Left", "Right")
-        ]
+        low = [(clip.heel(side)[:, 1] < 0.5) | (clip.at(f"{side}ToeBase")[:, 1] < 2.5) for side in ("Left", "Right")]
         assert np.all(low[0] | low[1]), name
 
 

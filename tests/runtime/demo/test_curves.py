@@ -24,9 +24,7 @@ def test_a_way_begins_and_ends_at_rest(way) -> None:
 
 
 def test_a_foot_glides_at_a_more_even_speed_than_a_hand_reaches() -> None:
-    fastest = [
-        np.diff(way(np.linspace(0.0, 1.0, 1001))).max() * 1000 for way in (curves.glided, curves.eased)
-    ]
+    fastest = [np.diff(way(np.linspace(0.0, 1.0, 1001))).max() * 1000 for way in (curves.glided, curves.eased)]
     assert fastest[0] == pytest.approx(1.0 / (1.0 - 0.5 * (0.34 + 0.29)), rel=1e-4)
     assert fastest[1] == pytest.approx(1.875, rel=1e-4)
 

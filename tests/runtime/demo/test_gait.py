@@ -35,9 +35,7 @@ def test_a_walk_begins_and_ends_standing(clips, name: str) -> None:
 
 
 @pytest.mark.parametrize("name", WALKS)
-def test_the_knee_is_almost_straight_at_the_strike_and_bends_by_about_60_degrees_in_the_air(
-    clips, name
-) -> None:
+def test_the_knee_is_almost_straight_at_the_strike_and_bends_by_about_60_degrees_in_the_air(clips, name) -> None:
     clip = clips[name]
     for side in ("Left", "Right"):
         knee = clip.knee_deg(side)[steady(clip)]

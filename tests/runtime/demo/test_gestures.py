@@ -20,9 +20,7 @@ def test_an_arm_hangs_strikes_holds_and_hangs_again() -> None:
 
 
 def test_gestures_near_each_other_are_joined_without_hanging_between() -> None:
-    near, far = (
-        gesturing(TIMES, [Gesture(2.0, BELLY), Gesture(again, OFFER)])[:, ELBOW] for again in (3.3, 5.5)
-    )
+    near, far = (gesturing(TIMES, [Gesture(2.0, BELLY), Gesture(again, OFFER)])[:, ELBOW] for again in (3.3, 5.5))
     assert near[at(2.0) : at(3.3)].min() > 50.0
     assert far[at(2.0) : at(5.5)].min() == pytest.approx(HANGING[ELBOW], abs=1e-6)
 

@@ -36,9 +36,7 @@ def within(angles_deg: np.ndarray, limits: tuple[tuple[float, float], ...]) -> b
 def test_a_person_has_hands_and_toes_and_two_like_sides() -> None:
     skeleton = human_skeleton()
     assert 25 <= len(skeleton.joints) <= 32
-    assert {"LeftHand", "LeftHandIndex", "RightHandThumb", "LeftToeBase", "RightToeBase"} <= set(
-        skeleton.names
-    )
+    assert {"LeftHand", "LeftHandIndex", "RightHandThumb", "LeftToeBase", "RightToeBase"} <= set(skeleton.names)
     by_name = {joint.name: joint for joint in skeleton.joints}
     for name, joint in by_name.items():
         if name.startswith("Left"):
