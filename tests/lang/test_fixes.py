@@ -45,6 +45,7 @@ def test_every_fix_mends_what_it_is_offered_for(path: Path, libraries: Mapping[s
     [
         ("WALK FOR 10 SEC", "WALK for 10 sec"),
         ("WALK WITH Upper-Body TALK For 2 sec", "WALK with Upper-Body TALK for 2 sec"),
+        ("END with TALK FOR 10 sec", "END with TALK for 10 sec"),
         ("WALK 10 sec", "WALK for 10 sec"),
         ("WALK for .5 sec", "WALK for 0.5 sec"),
         ("WALK for 1,5 sec", "WALK for 1.5 sec"),

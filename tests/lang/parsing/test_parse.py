@@ -152,6 +152,15 @@ def test_a_mistake_that_can_be_mended_leaves_a_statement() -> None:
     assert [one.code for one in result.diagnostics] == ["MS011", "MS016"]
 
 
+@pytest.mark.parametrize("text", ["Upper-Body not TALK", "A for 2 sec with B"])
+def test_a_mended_statement_covers_all_that_was_written(text: str) -> None:
+    (command,) = parsed(text).script.items
+    assert (command.span.start, command.span.end) == (0, len(text))
+    for node in syntax.walk(command):
+        for child in syntax.children(node):
+            assert node.span.start <= child.span.start <= child.span.end <= node.span.end
+
+
 def test_what_stands_in_braces_without_a_head_is_still_read() -> None:
     assert [type(item).__name__ for item in parsed("A { B for; C }").script.items] == ["Command", "Broken", "Command"]
 

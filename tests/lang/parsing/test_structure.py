@@ -19,6 +19,8 @@ Codes = Callable[..., list[str]]
         "END",
         "Upper-Body END",
         "WALK with ONCE",
+        "WALK ONCE with TALK",
+        "WALK with END TALK",
         "TO or LET",
         "wait 3 minutes; end Left-Hand",
         "WALK with Sub TALK with sub (WAVE and not POINT)",

@@ -31,6 +31,11 @@ def test_graphs_are_found_by_inexact_spelling(deep: Names) -> None:
     assert (deep.graph("Trunk"), deep.graph("t-r_UNK"), deep.graph("Trunks")) == ("Trunk", "Trunk", None)
 
 
+def test_of_graphs_spelt_alike_the_first_is_meant_by_another_spelling(catalog: Any) -> None:
+    names = Names(catalog({"Body": {"a": ()}, "Hand": {"a": ()}, "HAND": {"a": ()}}, {}, start="a"))
+    assert (names.graph("HAND"), names.graph("hand")) == ("HAND", "Hand")
+
+
 def test_a_motion_goes_before_a_tag_and_exact_before_inexact(catalog: Any) -> None:
     names = Names(catalog({"Body": {"Walk": ("walk", "WALK"), "b": ("WALK",)}}, {}, start="b"))
     for written, name, kind, exact in [
