@@ -28,13 +28,7 @@ def atomic_output(path: str | Path) -> Iterator[Path]:
         yield Path(path)
         return
     target = Path(os.path.realpath(path))
-    _check_writable(target, path)
-    beside = target.with_name(f".{os.urandom(8).hex()}.tmp")
-    try:
-        # Made by `open`, not by `tempfile`, so that it gets the permissions of any new file.
-        os.close(os.open(beside, os.O_CREAT | os.O_EXCL | os.O_WRONLY, 0o666))
-    except OSError as error:
-        raise type(error)(error.errno, error.strerror, str(path)) from None
+    beside = _made_beside(target, path)
     try:
         yield beside
         if target.exists():
@@ -43,6 +37,30 @@ def atomic_output(path: str | Path) -> Iterator[Path]:
     except BaseException:
         beside.unlink(missing_ok=True)
         raise
+
+
+def check_output(path: str | Path) -> None:
+    """Try whether `atomic_output(path)` would do, and leave nothing behind; for before a long work.
+
+    Raises
+    ------
+    OSError
+        As `atomic_output` does.
+    """
+    if not _is_device(path):
+        _made_beside(Path(os.path.realpath(path)), path).unlink()
+
+
+def _made_beside(target: Path, path: str | Path) -> Path:
+    """Make an empty file beside `target`; errors name `path`."""
+    _check_writable(target, path)
+    beside = target.with_name(f".{os.urandom(8).hex()}.tmp")
+    try:
+        # Made by `open`, not by `tempfile`, so that it gets the permissions of any new file.
+        os.close(os.open(beside, os.O_CREAT | os.O_EXCL | os.O_WRONLY, 0o666))
+    except OSError as error:
+        raise type(error)(error.errno, error.strerror, str(path)) from None
+    return beside
 
 
 def _is_device(path: str | Path) -> bool:

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from mlmg_runtime.files import atomic_output
+from mlmg_runtime.files import atomic_output, check_output
 
 
 def test_what_was_written_beside_takes_the_place_of_the_file(tmp_path: Path) -> None:
@@ -107,3 +107,13 @@ def test_a_pipe_is_written_itself(tmp_path: Path) -> None:
 def test_the_null_device_is_not_replaced() -> None:
     with atomic_output("/dev/null") as beside:
         assert beside == Path("/dev/null")
+
+
+def test_checking_an_output_leaves_everything_as_it_was(tmp_path: Path) -> None:
+    (tmp_path / "old").write_text("old")
+    check_output(tmp_path / "old")
+    check_output(tmp_path / "new")
+    assert [path.name for path in tmp_path.iterdir()] == ["old"]
+    assert (tmp_path / "old").read_text() == "old"
+    with pytest.raises(FileNotFoundError, match="no/new"):
+        check_output(tmp_path / "no" / "new")

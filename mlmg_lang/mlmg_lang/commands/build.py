@@ -11,7 +11,7 @@ import os
 from contextlib import nullcontext
 from pathlib import Path
 
-from mlmg_lang.commands.console import DONE, ProgressLine, tell
+from mlmg_lang.commands.console import DONE, ProgressLine, refuse_overwriting, refuse_unwritable, tell
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -43,6 +43,8 @@ def run(arguments: argparse.Namespace) -> int:
 
     configuration = read_configuration(arguments.configuration)
     output = arguments.output or arguments.configuration.with_suffix(".mlmg")
+    refuse_overwriting([output], [arguments.configuration, *(clip.path for clip in configuration.clips)])
+    refuse_unwritable([output])
     progress = ProgressLine()
     try:
         with nullcontext() if arguments.jobs == 1 else ThreadPoolExecutor(arguments.jobs) as executor:
@@ -57,6 +59,12 @@ def run(arguments: argparse.Namespace) -> int:
             tell(
                 f"mlmg build: warning: {graph.name}: no endless walk passes {motion}; it can be started in, not led to"
             )
+        if report.bridges:
+            widest = max(distance for _, _, distance in report.bridges)
+            tell(
+                f"mlmg build: note: {graph.name}: {len(report.bridges)} of {report.n_transitions} transitions are "
+                f"bridges, up to {widest:.3g} apart where {report.threshold:.3g} is smooth: feet may slide there"
+            )
     n_frames = sum(poses.n_frames for poses in built.poses.values())
     n_transitions = sum(report.n_transitions for report in built.reports)
     tell(
@@ -67,7 +75,6 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _jobs(text: str) -> int:
-    jobs = int(text)
-    if jobs < 1:
-        raise argparse.ArgumentTypeError("must be at least 1")
-    return jobs
+    if not text.isdecimal() or int(text) < 1:
+        raise argparse.ArgumentTypeError(f"expected a number from 1 on, found {text!r}")
+    return int(text)

@@ -5,15 +5,20 @@ from __future__ import annotations
 import os
 import sys
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import TextIO
 
 DONE = 0
 WRONG_CONTENT = 1
 WRONG_USAGE = 2
 INTERRUPTED = 130
+
+
+class UsageError(Exception):
+    """What a person asked for cannot be done as they asked for it."""
 
 
 def run_command(program: str, command: Callable[[], int]) -> int:
@@ -27,6 +32,9 @@ def run_command(program: str, command: Callable[[], int]) -> int:
         code = command()
         sys.stdout.flush()
         return code
+    except UsageError as error:
+        tell(f"{program}: error: {error}")
+        return WRONG_USAGE
     except MlmgError as error:
         tell(f"{program}: error: {error}")
         return WRONG_CONTENT
@@ -42,6 +50,41 @@ def run_command(program: str, command: Callable[[], int]) -> int:
     except KeyboardInterrupt:
         tell(f"{program}: interrupted")
         return INTERRUPTED
+
+
+def refuse_overwriting(outputs: Sequence[str | Path | None], inputs: Iterable[str | Path | None]) -> None:
+    """Refuse to write a file that is read, or one file twice; - and None are no files.
+
+    Raises
+    ------
+    UsageError
+        That names the file.
+    """
+    read = {Path(path).resolve() for path in inputs if path is not None and str(path) != "-"}
+    written: set[Path] = set()
+    for path in outputs:
+        if path is None or str(path) == "-":
+            continue
+        if Path(path).resolve() in read:
+            raise UsageError(f"{path}: this file is read; the output needs another name")
+        if Path(path).resolve() in written:
+            raise UsageError(f"{path}: two outputs cannot be one file")
+        written.add(Path(path).resolve())
+
+
+def refuse_unwritable(outputs: Iterable[str | Path | None]) -> None:
+    """Try whether files could be written, before the work whose result they are to hold.
+
+    Raises
+    ------
+    OSError
+        If one could not.
+    """
+    from mlmg_runtime.files import check_output
+
+    for path in outputs:
+        if path is not None and str(path) != "-":
+            check_output(path)
 
 
 def tell(message: str) -> None:

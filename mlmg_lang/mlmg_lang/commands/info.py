@@ -36,7 +36,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Print what is asked for."""
-    library = _open(arguments.library)
+    from mlmg_lang.libraries import find_library
+
+    library = _open(find_library("-", arguments.library))
     for rows, graph in (
         (_transitions, arguments.transitions),
         (_oms, arguments.oms),

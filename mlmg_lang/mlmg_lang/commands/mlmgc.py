@@ -12,9 +12,11 @@ from typing import TYPE_CHECKING, Any
 from mlmg_lang.commands.console import (
     DONE,
     WRONG_CONTENT,
-    WRONG_USAGE,
     ProgressLine,
+    UsageError,
     one_thread_a_product,
+    refuse_overwriting,
+    refuse_unwritable,
     run_command,
     tell,
     utf8_streams,
@@ -42,9 +44,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Run `mlmgc` and return its exit code."""
     utf8_streams()
     one_thread_a_product()
-    parser = _parser()
-    parsed = parser.parse_args(arguments)
-    return run_command("mlmgc", lambda: _run(parser, parsed))
+    parsed = _parser().parse_args(arguments)
+    return run_command("mlmgc", lambda: _run(parsed))
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -74,24 +75,31 @@ def _parser() -> argparse.ArgumentParser:
 
 
 def _rate(text: str) -> float:
-    rate = float(text)
+    try:
+        rate = float(text)
+    except ValueError:
+        rate = 0.0
     if not 0 < rate <= 10000:
-        raise argparse.ArgumentTypeError(f"{text} is no number of frames a second")
+        raise argparse.ArgumentTypeError(f"expected a number of frames a second, found {text!r}")
     return rate
 
 
-def _run(parser: argparse.ArgumentParser, arguments: argparse.Namespace) -> int:
-    if arguments.output == "-" and arguments.report == "-":
-        tell("mlmgc: error: the motion and the report cannot both go to standard output")
-        return WRONG_USAGE
+def _run(arguments: argparse.Namespace) -> int:
     from mlmg_lang.front_end import analyse
+    from mlmg_lang.libraries import find_library
     from mlmg_lang.script_files import read_script
 
+    if arguments.output == "-" and arguments.report == "-":
+        raise UsageError("the motion and the report cannot both go to standard output")
+    library_path = find_library(arguments.script, arguments.library)
+    outputs = [arguments.output, arguments.report]
+    refuse_overwriting(outputs, [arguments.script, library_path])
+    refuse_unwritable(outputs)
     source, unreadable = read_script(arguments.script)
     if unreadable:
         _show(source, unreadable)
         return WRONG_CONTENT
-    library = _library(arguments.script, arguments.library)
+    library = _library(library_path)
     analysis = analyse(source, library, start=arguments.start)
     _show(source, analysis.diagnostics)
     if analysis.resolved is None:
@@ -106,12 +114,10 @@ def _run(parser: argparse.ArgumentParser, arguments: argparse.Namespace) -> int:
     return DONE
 
 
-def _library(script: str, option: Path | None) -> Library:
-    """Open the library of a script; where nothing names one, the demo library, and say so."""
-    from mlmg_lang.libraries import find_library
+def _library(path: Path | None) -> Library:
+    """Open a library; where none is named, the demo library, and say so."""
     from mlmg_runtime.library import open_library
 
-    path = find_library(script, option)
     if path is not None:
         return open_library(path)
     from mlmg_runtime.demo.library import demo_library
@@ -146,7 +152,9 @@ def _write(performance: Performance, output: str, report: str | None) -> None:
         performance.report["n_frames"] / performance.report["frame_rate"],
     )
     if output != "-":
-        tell(f"{output}: {n_frames} frames, {seconds:.1f} s")
+        commands = performance.report["commands"]
+        under_way = sum(command["arrive"] - command["begin"] for command in commands) / performance.report["frame_rate"]
+        tell(f"{output}: {n_frames} frames, {seconds:.1f} s, {under_way:.1f} s of them on the way between motions")
 
 
 def _write_report(report: dict[str, Any], path: str) -> None:

@@ -157,11 +157,10 @@ class _Reader:
         at: KeyPath = ("library", "clips")
         patterns = self._texts(library, at, () if named else ("*.bvh",))
         found: dict[str, ClipSource] = {}
-        used = {clip.path.resolve() for clip in named.values()}
         for pattern in patterns:
             for path in self._matches(pattern, at):
                 name = _nfc(path.stem)
-                if name in named or path.resolve() in used:
+                if name in named:
                     continue
                 if name in found and found[name].path.resolve() != path.resolve():
                     self._fail(

@@ -9,6 +9,9 @@ import numpy as np
 
 from mlmg_runtime.arrays import BoolArray, FloatArray, IntArray
 
+# Windows up to five times as far apart as smooth ones (root mean square) make a bridge that is seen, but no stumble.
+USUAL_BRIDGE = 25.0
+
 Connected: TypeAlias = Callable[[BoolArray], bool]
 
 
@@ -84,11 +87,11 @@ class Positions:
 def bridges(positions: Positions, edges: Edges, sigma: float, window: int) -> BoolArray:
     """Return which transitions to keep so that as many motions as possible can be reached from each other.
 
-    All whose distance is at most `sigma` are kept. Above it, nothing is dearer than it must be for the motions to
-    hang together, and of what is left only the best is kept: of transitions between the same two motions that leave
-    within a window of each other, one; and any other only if the motions fall apart without it. (The fewest bridges
-    that connect all would do for a graph, but not for a person: on real clips a walk would begin 7 to 20 seconds
-    after it was asked for, with these 4 to 8.)
+    All whose distance is at most `sigma` are kept; if the motions hang together by these, no other. Else nothing is
+    kept that is dearer than a usual bridge, or than it must be for the motions to hang together; and of what is left
+    only the best: of transitions between the same two motions that leave within a window of each other, one; and any
+    other only if the motions fall apart without it. (The fewest bridges that connect all would do for a graph, but not
+    for a person: on real clips a walk would begin 7 to 20 seconds after it was asked for, with these 4 to 5.)
 
     Returns
     -------
@@ -104,7 +107,7 @@ def bridges(positions: Positions, edges: Edges, sigma: float, window: int) -> Bo
     smooth = edges.distance <= sigma
     if connected(smooth):
         return smooth
-    keep = _least_connecting(edges, order, connected)
+    keep = _least_connecting(edges, order, connected) | (edges.distance <= USUAL_BRIDGE * sigma)
     best = smooth | _best_of_each_window(edges, order[keep[order]], window)
     dearest_first = order[::-1]
     rest = dearest_first[(keep & ~best)[dearest_first]]

@@ -20,6 +20,8 @@ from mlmg_runtime.skeleton import Poses, Skeleton, has_positions
 # must be the metre: a person's bones, laid end to end, are about 4 m long.
 OFFSET_TOLERANCE = 0.05
 _BONES_IN_METRES = 20.0
+# Frames a second. A file with fewer has its frame time in another unit: resampled, it would fill the memory.
+SLOWEST_RATE = 1.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,6 +55,12 @@ def load_clips(configuration: LibraryConfiguration, progress: Callable[[int, int
             skeleton = own
         _check_agreement(skeleton, configuration.clips[0], own, clip)
         rate = 1.0 / document.frame_time_s
+        if rate < SLOWEST_RATE:
+            raise LibraryError(
+                clip.path,
+                None,
+                f"a frame lasts {document.frame_time_s:g} s; expected at most 1: is it in milliseconds?",
+            )
         frame_rate = frame_rate or _usual(rate)
         poses[clip.name] = _poses(configuration, clip, document, skeleton, rate, frame_rate)
     progress(len(configuration.clips), len(configuration.clips))

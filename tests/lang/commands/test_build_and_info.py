@@ -14,7 +14,7 @@ def test_building_says_on_standard_error_what_came_of_it(folder, capsys):
     assert mlmg.main(["build", "library.toml", "-o", "my.mlmg", "--jobs", "2"]) == 0
     out, err = capsys.readouterr()
     assert out == ""
-    assert err.startswith("my.mlmg: 3 clips, 270 frames, 2 graphs, ")
+    assert err.splitlines()[-1].startswith("my.mlmg: 3 clips, 270 frames, 2 graphs, ")
 
 
 def test_without_an_output_the_library_is_written_beside_its_configuration(folder):
@@ -127,3 +127,30 @@ def test_progress_says_nothing_where_there_is_no_terminal():
     stream = io.StringIO()
     ProgressLine(stream)("comparing", 1, 4)
     assert stream.getvalue() == ""
+
+
+@pytest.mark.parametrize("output", ["library.toml", "Step.bvh"])
+def test_no_input_of_a_build_is_written_over(folder, capsys, output):
+    before = (folder / output).read_bytes()
+    assert mlmg.main(["build", "library.toml", "-o", output]) == 2
+    assert f"{output}: this file is read" in capsys.readouterr().err
+    assert (folder / output).read_bytes() == before
+
+
+def test_a_folder_that_is_not_there_is_told_before_the_work(folder, capsys, monkeypatch):
+    monkeypatch.setattr("mlmg_runtime.building.build.build_library", lambda *_: pytest.fail("built all the same"))
+    assert mlmg.main(["build", "library.toml", "-o", "no/my.mlmg"]) == 2
+    assert capsys.readouterr().err == "mlmg build: error: no/my.mlmg: No such file or directory\n"
+
+
+def test_a_frame_time_in_milliseconds_is_one_clear_error(folder, capsys):
+    text = (folder / "Step.bvh").read_text()
+    (folder / "Step.bvh").write_text(text.replace("Frame Time: 0.033333", "Frame Time: 33.3333", 1))
+    assert mlmg.main(["build", "library.toml"]) == 1
+    assert "Step.bvh: a frame lasts 33.3333" in capsys.readouterr().err
+
+
+def test_info_finds_the_library_as_the_other_commands_do(built, capsys, monkeypatch):
+    monkeypatch.setenv("MLMG_LIBRARY", "my.mlmg")
+    assert mlmg.main(["info"]) == 0
+    assert capsys.readouterr().out.startswith("my.mlmg: 3 clips")

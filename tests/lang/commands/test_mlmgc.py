@@ -132,7 +132,7 @@ def test_without_a_library_the_demo_library_plays_and_says_so_in_one_line(folder
     assert mlmgc.main(["scene.ms", "-o", "out.bvh"]) == 0
     assert capsys.readouterr().err.splitlines() == [
         "mlmgc: no library is named (--library, MLMG_LIBRARY, mlmg.toml): playing on the demo library",
-        "out.bvh: 30 frames, 1.0 s",
+        "out.bvh: 30 frames, 1.0 s, 0.0 s of them on the way between motions",
     ]
 
 
@@ -153,3 +153,32 @@ def test_the_report_names_the_joints_of_a_part_that_runs(scene):
     assert compiled("-o", "out.bvh", "--report", "out.json") == 0
     report = json.loads((scene / "out.json").read_text())
     assert report["joints"] == {"Upper-Body": ["Spine", "Head"]}
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        (["-o", "scene.ms"], "scene.ms: this file is read"),
+        (["-o", "./my.mlmg"], "my.mlmg: this file is read"),
+        (["-o", "out.bvh", "--report", "scene.ms"], "scene.ms: this file is read"),
+        (["-o", "out.bvh", "--report", "out.bvh"], "out.bvh: two outputs cannot be one file"),
+    ],
+)
+def test_no_file_that_is_read_is_written_over(scene, capsys, options, message):
+    before = {path.name: path.read_bytes() for path in scene.iterdir()}
+    assert compiled(*options) == 2
+    assert message in capsys.readouterr().err
+    assert {path.name: path.read_bytes() for path in scene.iterdir()} == before
+
+
+def test_an_output_that_cannot_be_written_is_told_before_anything_is(scene, capsys):
+    assert compiled("-o", "out.bvh", "--report", "no/report.json") == 2
+    assert "no/report.json: No such file or directory" in capsys.readouterr().err
+    assert not (scene / "out.bvh").exists()
+
+
+def test_a_rate_that_is_no_number_is_wrong_usage(scene, capsys):
+    with pytest.raises(SystemExit) as left:
+        compiled("-o", "out.bvh", "--fps", "abc")
+    assert left.value.code == 2
+    assert "expected a number of frames a second, found 'abc'" in capsys.readouterr().err

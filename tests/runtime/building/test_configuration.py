@@ -266,9 +266,9 @@ def test_everything_that_can_be_written_is_read(folder: Path) -> None:
     assert list(upper.motions.items()) == [("Walk_02", ("SWING", "FAST")), ("Sit", ())]
 
 
-def test_a_clip_with_a_table_of_its_own_is_not_found_a_second_time_by_a_glob(folder: Path) -> None:
-    found = read(folder, '[library]\nclips = ["*.bvh"]\n[clips.Stroll]\nfile = "Walk_01.bvh"')
-    assert [clip.name for clip in found.clips] == ["Idle_01", "Walk_02", "Stroll"]
+def test_a_clip_made_of_another_leaves_that_one_where_it_is(folder: Path) -> None:
+    found = read(folder, '[library]\nclips = ["*.bvh"]\n[clips.Stroll]\nfile = "Walk_01.bvh"\nmirror = true')
+    assert [clip.name for clip in found.clips] == ["Idle_01", "Walk_01", "Walk_02", "Stroll"]
 
 
 def test_a_clip_on_no_graph_is_left_out(folder: Path) -> None:
