@@ -28,12 +28,12 @@ class Library:
     """
 
     path: Path
-    skeleton: Skeleton
+    skeleton: Skeleton = field(repr=False)
     frame_rate: float
     up: str
     start: str
-    by_name: Mapping[str, MotionGraph]
-    reports: Mapping[str, dict[str, Any]]
+    by_name: Mapping[str, MotionGraph] = field(repr=False)
+    reports: Mapping[str, dict[str, Any]] = field(repr=False)
     warnings: tuple[str, ...]
     _poses: dict[str, Poses] = field(default_factory=dict, repr=False, compare=False)
 

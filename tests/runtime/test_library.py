@@ -66,3 +66,9 @@ def test_two_openings_of_a_file_give_the_same_library(small_library: Library) ->
     assert again.skeleton == small_library.skeleton
     np.testing.assert_array_equal(again.root.transitions, small_library.root.transitions)
     np.testing.assert_array_equal(again.poses("Wave").rotations, small_library.poses("Wave").rotations)
+
+
+def test_shown_to_a_person_a_library_says_in_one_line_what_it_is(small_library: Library) -> None:
+    assert repr(small_library) == (
+        f"Library(path={small_library.path!r}, frame_rate=30.0, up='y', start='Stand', warnings=())"
+    )
