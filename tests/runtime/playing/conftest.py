@@ -1,8 +1,9 @@
 """Slow, obvious ways to search and to build motion graphs, for comparison."""
 
+import random
 from collections import defaultdict
 from collections.abc import Callable, Collection, Mapping, Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 import pytest
@@ -161,41 +162,61 @@ def motion_graph() -> Callable[..., MotionGraph]:
 # Random things to ask of a character.
 
 
+class Move(NamedTuple):
+    """Something to ask: numbers that mean something in whatever library and state of things."""
+
+    call: str
+    graphs: list[bool]
+    candidates: list[int]
+    n_frames: int
+
+
 @pytest.fixture(scope="session")
-def ask() -> Callable[..., tuple[object, ...]]:
-    """Return a function that draws something that may be asked of a performer now, and asks it."""
+def moves() -> Callable[[int], list[Move]]:
+    """Return a function that makes a few things to ask of a character from a seed."""
+    return _moves
+
+
+def _moves(seed: int) -> list[Move]:
+    draw = random.Random(seed)
+    return [
+        Move(
+            draw.choice(["bring", "bring", "bring", "hold", "end"]),
+            [draw.random() < 0.5 for _ in range(4)],
+            [draw.randint(1, 15) for _ in range(4)],
+            draw.randint(0, 200),
+        )
+        for _ in range(draw.randint(1, 6))
+    ]
+
+
+@pytest.fixture(scope="session")
+def ask() -> Callable[[Performer, Move], tuple[str, Any]]:
+    """Return a function that asks a move of a performer, and tells what was called with what."""
     return _ask
 
 
-def _ask(data: st.DataObject, performer: Performer) -> tuple[object, ...]:
-    call = data.draw(st.sampled_from(["bring", "bring", "bring", "hold", "end"]))
-    if call == "bring":
-        what = (call, layers := data.draw(_layers(performer)))
-        performer.bring(layers)
-    elif call == "hold":
-        what = (call, n_frames := data.draw(st.integers(0, 200)))
-        performer.hold(n_frames)
-    else:
-        what = (call, part := data.draw(st.sampled_from(performer.library.graphs[1:])))
-        performer.end(part)
-    return what
+def _ask(performer: Performer, move: Move) -> tuple[str, Any]:
+    what: Any = move.n_frames
+    if move.call == "bring":
+        what = _layers(performer, move)
+    elif move.call == "end":
+        what = performer.library.graphs[1:][move.candidates[0] % 3]
+    getattr(performer, move.call)(what)
+    return move.call, what
 
 
-@st.composite
-def _layers(draw: st.DrawFn, performer: Performer) -> list[tuple[str, list[str]]]:
+def _layers(performer: Performer, move: Move) -> list[tuple[str, list[str]]]:
     """Return graphs with candidates that rule 1 allows, whichever of the candidates above are taken."""
     library = performer.library
     layers: list[tuple[str, list[str]]] = []
-    drivers: dict[str, set[str]] = {}
-    named: set[str] = set()
-    for graph in library.graphs:
-        parent = library.parent(graph)
-        below_named = not named.isdisjoint(library.ancestors(graph))
-        drivers[graph] = drivers[parent] if below_named else {performer.motion(graph)}
-        may_leave = parent is None or drivers[parent] <= set(library.motions(graph))
-        if may_leave and draw(st.booleans()):
-            candidates = draw(st.sets(st.sampled_from(list(library.motions(graph))), min_size=1))
-            layers.append((graph, [motion for motion in library.motions(graph) if motion in candidates]))
-            drivers[graph] = candidates
-            named.add(graph)
+    drivers: dict[str, list[str]] = {}
+    for graph, is_named, number in zip(library.graphs, move.graphs, move.candidates, strict=True):
+        parent, motions = library.parent(graph), library.motions(graph)
+        below_named = any(name in library.ancestors(graph) for name, _ in layers)
+        drivers[graph] = drivers[parent] if below_named else [performer.motion(graph)]
+        if is_named and (parent is None or set(drivers[parent]) <= set(motions)):
+            chosen = [motion for at, motion in enumerate(motions) if number >> at & 1] or [motions[0]]
+            layers.append((graph, chosen))
+            drivers[graph] = chosen
     return layers or [(library.root.name, [performer.motion(library.root.name)])]
