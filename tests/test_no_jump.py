@@ -9,9 +9,10 @@ import random
 from pathlib import Path
 from typing import Any
 
-import mlmg_lang
 import numpy as np
 import pytest
+
+import mlmg_lang
 from mlmg_runtime.clips import poses_from_bvh
 from mlmg_runtime.library import Library
 from mlmg_runtime.skeleton import Poses, world_positions
