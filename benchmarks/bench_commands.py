@@ -22,33 +22,6 @@ MOCAP = ROOT.parent / "shared" / "mocap" / "reference"
 N_RUNS = 7
 SHORT = "Idle_01\nWALK for 10 sec\nWALK with Sub TALK for 10 sec\nIDLE for 2 sec\n"
 LONG = "Idle_01\n" + "WALK for 50 sec\nWALK with Sub TALK for 50 sec\nIDLE for 20 sec\n" * 5
-CONFIGURATION = """
-[library]
-clips = ["{clips}/*.bvh"]
-start = "Idle_01"
-[[graph]]
-name = "Full-Body"
-[[graph]]
-name = "Upper-Body"
-joints = ["Spine"]
-[tags.Full-Body]
-Idle_01 = ["IDLE"]
-Idle_02 = ["IDLE"]
-Walk_01 = ["WALK"]
-Walk_02 = ["WALK"]
-Walk_03 = ["WALK", "WAVE_HAND"]
-Music_01 = ["Music", "IDLE"]
-Talk_01 = ["TALK", "IDLE"]
-Talk_02 = ["TALK"]
-[tags.Upper-Body]
-Idle_01 = ["IDLE"]
-Walk_01 = ["SWING_HAND"]
-Walk_02 = ["SWING_HAND"]
-Walk_03 = ["WAVE_HAND"]
-Music_01 = ["Music", "IDLE"]
-Talk_01 = ["TALK", "IDLE"]
-Talk_02 = ["TALK"]
-"""
 
 
 def median_s(command: Sequence[str]) -> float:
@@ -71,7 +44,8 @@ def main() -> int:
         (folder / "long.ms").write_text(LONG)
         rows = [("import numpy, for comparison", [sys.executable, "-c", "import numpy"], None)]
         if MOCAP.is_dir():
-            (folder / "library.toml").write_text(CONFIGURATION.format(clips=MOCAP.as_posix()))
+            configuration = (ROOT / "tests" / "reference.toml").read_text()
+            (folder / "library.toml").write_text(configuration.replace("CLIPS", f'"{MOCAP.as_posix()}/*.bvh"'))
             build = [*mlmg, "build", str(folder / "library.toml"), "-o", str(library)]
             rows.append(("mlmg build, 2,173 frames, two graphs", build, 5.0))
         else:

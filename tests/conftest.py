@@ -1,10 +1,14 @@
 """What all tests share: the way to the real clips, and the flag that rewrites golden files."""
 
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 from hypothesis import settings
 
+from mlmg_runtime.building.build import build_library
+from mlmg_runtime.building.configuration import read_configuration
+from mlmg_runtime.built_library import BuiltLibrary
 from mlmg_runtime.demo.library import demo_library as build_demo_library
 from mlmg_runtime.library import Library, open_library
 
@@ -39,3 +43,23 @@ def demo_library(tmp_path_factory: pytest.TempPathFactory) -> Library:
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("MLMG_CACHE", str(tmp_path_factory.mktemp("cache")))
         return open_library(build_demo_library())
+
+
+@pytest.fixture(scope="session")
+def build_reference(mocap: Path, tmp_path_factory: pytest.TempPathFactory) -> Callable[..., BuiltLibrary]:
+    """Return a function that builds the reference library from folders of real clips.
+
+    Those of all folders but the first are stepping stones: on every graph, without a tag.
+    """
+    configuration = (Path(__file__).parent / "reference.toml").read_text(encoding="utf-8")
+
+    def build(*folders: str) -> BuiltLibrary:
+        clips = ", ".join(f'"{(mocap / folder).as_posix()}/*.bvh"' for folder in folders)
+        stones = "\n".join(
+            f"{clip.stem} = []" for folder in folders[1:] for clip in sorted((mocap / folder).glob("*.bvh"))
+        )
+        path = tmp_path_factory.mktemp("reference") / "library.toml"
+        path.write_text(configuration.replace("CLIPS", clips).replace("# STONES", stones), encoding="utf-8")
+        return build_library(read_configuration(path), None, lambda *_: None)
+
+    return build

@@ -15,8 +15,7 @@ import pytest
 
 import mlmg_lang
 from mlmg_runtime import clips
-from mlmg_runtime.building.build import build_library
-from mlmg_runtime.building.configuration import read_configuration
+from mlmg_runtime.built_library import BuiltLibrary
 from mlmg_runtime.database import write_database
 from mlmg_runtime.library import Library, open_library
 from mlmg_runtime.skeleton import world_positions
@@ -65,54 +64,25 @@ THREE_LAYERS = Example(
     ("Full-Body", "Upper-Body", "Left-Hand"),
 )
 
-TAGS = """
-[tags.Full-Body]
-Idle_01 = ["IDLE"]
-Idle_02 = ["IDLE"]
-Walk_01 = ["WALK"]
-Walk_02 = ["WALK"]
-Walk_03 = ["WALK", "WAVE_HAND"]
-Music_01 = ["Music", "IDLE"]
-Talk_01 = ["TALK", "IDLE"]
-Talk_02 = ["TALK"]
-{stones}
-[tags.Upper-Body]
-Idle_01 = ["IDLE"]
-Walk_01 = ["SWING_HAND"]
-Walk_02 = ["SWING_HAND"]
-Walk_03 = ["WAVE_HAND"]
-Music_01 = ["Music", "IDLE"]
-Talk_01 = ["TALK", "IDLE"]
-Talk_02 = ["TALK"]
-{stones}
-"""
 
-
-def build(folder: Path, sources: list[Path]) -> Library:
-    """Build a reference library from folders of clips; all but the first are untagged stepping stones."""
-    stones = "\n".join(f"{clip.stem} = []" for source in sources[1:] for clip in sorted(source.glob("*.bvh")))
-    patterns = ", ".join(f'"{source.as_posix()}/*.bvh"' for source in sources)
-    graphs = '[[graph]]\nname = "Full-Body"\n[[graph]]\nname = "Upper-Body"\njoints = ["Spine"]\n'
-    text = f'[library]\nclips = [{patterns}]\nframe_rate = 30\nstart = "Idle_01"\n{graphs}{TAGS.format(stones=stones)}'
-    (folder / "library.toml").write_text(text, encoding="utf-8")
-    built = build_library(read_configuration(folder / "library.toml"), None, lambda *_: None)
+def opened(built: BuiltLibrary, folder: Path) -> Library:
     write_database(built, folder / "reference.mlmg")
     return open_library(folder / "reference.mlmg")
 
 
 @pytest.fixture(scope="session")
-def reference(mocap, tmp_path_factory) -> Library:
-    return build(tmp_path_factory.mktemp("reference"), [mocap / "reference"])
+def reference(build_reference, tmp_path_factory) -> Library:
+    return opened(build_reference("reference"), tmp_path_factory.mktemp("reference"))
 
 
 @pytest.fixture(scope="session")
-def reference_plus(mocap, tmp_path_factory) -> Library:
-    return build(tmp_path_factory.mktemp("plus"), [mocap / "reference", mocap / "reference-plus"])
+def reference_plus(build_reference, tmp_path_factory) -> Library:
+    return opened(build_reference("reference", "reference-plus"), tmp_path_factory.mktemp("plus"))
 
 
 @pytest.fixture(scope="session")
-def reference_6channel(mocap, tmp_path_factory) -> Library:
-    return build(tmp_path_factory.mktemp("6channel"), [mocap / "reference-6channel"])
+def reference_6channel(build_reference, tmp_path_factory) -> Library:
+    return opened(build_reference("reference-6channel"), tmp_path_factory.mktemp("6channel"))
 
 
 def report_of(example: Example, library: Library) -> dict[str, Any]:

@@ -214,55 +214,8 @@ def _small_clip(seed: int, n_frames: int, speed_cm_s: float, swing_deg: float) -
     return Bvh(_SMALL_JOINTS, 1.0 / 30.0, np.concatenate((place, turns), axis=1))
 
 
-# The reference library: its eight clips are no part of the project, but what they are called is.
-
-REFERENCE_CONFIGURATION = """\
-[library]
-clips = ["CLIPS/*.bvh"]
-start = "Idle_01"
-
-[[graph]]
-name = "Full-Body"
-
-[[graph]]
-name = "Upper-Body"
-joints = ["Spine"]
-
-[tags.Full-Body]
-Idle_01 = ["IDLE"]
-Idle_02 = ["IDLE"]
-Walk_01 = ["WALK"]
-Walk_02 = ["WALK"]
-Walk_03 = ["WALK", "WAVE_HAND"]
-Music_01 = ["Music", "IDLE"]
-Talk_01 = ["TALK", "IDLE"]
-Talk_02 = ["TALK"]
-
-[tags.Upper-Body]
-Idle_01 = ["IDLE"]
-Walk_01 = ["SWING_HAND"]
-Walk_02 = ["SWING_HAND"]
-Walk_03 = ["WAVE_HAND"]
-Music_01 = ["Music", "IDLE"]
-Talk_01 = ["TALK", "IDLE"]
-Talk_02 = ["TALK"]
-"""
-
-
 @pytest.fixture(scope="session")
-def build_reference(mocap: Path, tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], BuiltLibrary]:
-    """Return a function that builds the reference library from a folder of real clips."""
-
-    def build(clips: str) -> BuiltLibrary:
-        path = tmp_path_factory.mktemp(clips) / "library.toml"
-        path.write_text(REFERENCE_CONFIGURATION.replace("CLIPS", str(mocap / clips)), encoding="utf-8")
-        return build_library(read_configuration(path), None, lambda *_: None)
-
-    return build
-
-
-@pytest.fixture(scope="session")
-def reference_built(build_reference: Callable[[str], BuiltLibrary]) -> BuiltLibrary:
+def reference_built(build_reference: Callable[..., BuiltLibrary]) -> BuiltLibrary:
     """Return the reference library as it was built."""
     return build_reference("reference")
 
