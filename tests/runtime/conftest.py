@@ -114,6 +114,7 @@ start = "Stand"
 [[graph]]
 name = "Full-Body"
 window = 8
+weights = { LeftHand = 2.0, RightLeg = 0.5 }
 
 [[graph]]
 name = "Upper-Body"

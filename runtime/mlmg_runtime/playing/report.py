@@ -25,7 +25,7 @@ def tracks_from_timeline(
     tracks = {}
     for name, segments in timeline.tracks.items():
         graph = library.by_name[name]
-        entries = [_entry(graph, segment, timeline, ratio, n_frames) for segment in segments]
+        entries = [_entry(graph, segment, ratio, n_frames) for segment in segments]
         tracks[name] = [entry for entry in entries if entry["begin"] < entry["end"]]
     return tracks
 
@@ -41,11 +41,11 @@ def joints_from_timeline(library: Library, timeline: Timeline) -> dict[str, list
     return {graph.name: [library.skeleton.names[joint] for joint in graph.joints] for graph in parts}
 
 
-def _entry(graph: MotionGraph, segment: Segment, timeline: Timeline, ratio: float, n_frames: int) -> dict[str, Any]:
-    end = n_frames if segment.end >= timeline.n_frames else output_frame(segment.end, ratio, n_frames)
-    interval = {"begin": output_frame(segment.begin, ratio, n_frames), "end": end}
+def _entry(graph: MotionGraph, segment: Segment, ratio: float, n_frames: int) -> dict[str, Any]:
+    begin, end = (output_frame(frame, ratio, n_frames) for frame in (segment.begin, segment.end))
+    interval = {"begin": begin, "end": end}
     if isinstance(segment, Clip):
-        return {"kind": "clip", **interval, **_clip(graph, segment, interval["begin"] / ratio, ratio)}
+        return {"kind": "clip", **interval, **_clip(graph, segment, begin / ratio, ratio)}
     return _blend(graph, segment, interval)
 
 
