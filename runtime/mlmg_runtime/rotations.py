@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from mlmg_runtime.arrays import FloatArray
+from mlmg_runtime.arrays import FloatArray, IntArray
 
 AXES = {"X": 0, "Y": 1, "Z": 2}
 
@@ -124,14 +124,39 @@ def _three_angles(order: str, q: FloatArray) -> FloatArray:
 def slerp(a: FloatArray, b: FloatArray, weight: FloatArray) -> FloatArray:
     """Return the rotation a share `weight` of the shortest way from `a` to `b`; weight broadcast to (...)."""
     dot = np.sum(a * b, axis=-1)
-    b = np.where(dot[..., None] < 0.0, -b, b)
+    return _slerp_as_signed(a, np.where(dot[..., None] < 0.0, -b, b), weight)
+
+
+def slerp_movements(a: FloatArray, b: FloatArray, weight: FloatArray, starts: IntArray) -> FloatArray:
+    """Return movements `a` blended into `b` frame by frame, each blend going the same way round all the time.
+
+    Where two movements are about half a turn apart, the shortest way changes sides from one frame to the next, and
+    the joint would jump. Here each blend takes, for each joint, the side that is the shorter one on the whole.
+
+    Parameters
+    ----------
+    a, b : array, shape (n_frames, n_joints, 4). weight : array, shape (n_frames,).
+    starts : array, shape (n_blends,). The first frame of each blend, ascending from 0.
+    """
+    relative = multiply(inverse(a), b)
+    turns_over = np.sum(relative[1:] * relative[:-1], axis=-1) < 0.0
+    sign = np.ones(relative.shape[:2])
+    sign[1:] = np.cumprod(np.where(turns_over, -1.0, 1.0), axis=0)
+    middle = (weight * (1.0 - weight))[:, None]
+    shorter = np.add.reduceat(sign * relative[..., 0] * middle, starts, axis=0) >= 0.0
+    sign *= np.repeat(np.where(shorter, 1.0, -1.0), np.diff(starts, append=len(a)), axis=0)
+    return _slerp_as_signed(a, sign[..., None] * b, weight[:, None])
+
+
+def _slerp_as_signed(a: FloatArray, b: FloatArray, weight: FloatArray) -> FloatArray:
+    """Return slerp of quaternions as they are: of `b` and `-b`, one goes the short way round, one the long way."""
     # The angle between the two, from sine and cosine: accurate for equal and for opposite rotations.
     angle = 2.0 * np.arctan2(np.linalg.norm(a - b, axis=-1), np.linalg.norm(a + b, axis=-1))
     sine = np.sin(angle)
     near = sine < 1e-9
     safe = np.where(near, 1.0, sine)
     weight_a = np.where(near, 1.0 - weight, np.sin((1.0 - weight) * angle) / safe)
-    weight_b = np.where(near, weight, np.sin(weight * angle) / safe)
+    weight_b = np.where(near, np.where(angle < 1.0, weight, -weight), np.sin(weight * angle) / safe)
     return normalized(weight_a[..., None] * a + weight_b[..., None] * b)
 
 

@@ -162,3 +162,52 @@ def test_smooth_channels_beyond_the_singularity_come_back_smooth(order: str) -> 
     angles = np.array([0.3, 1.2, -0.4]) + time * np.array([9.0, 2.5, -7.0])
     result = rotations.continuous_euler(rotations.to_euler(order, rotations.from_euler(order, angles)))
     np.testing.assert_allclose(result - result[0], angles - angles[0], atol=1e-9)
+
+
+def wobbling(n_frames: int, about_deg: float) -> tuple[FloatArray, FloatArray]:
+    """Return a joint at rest, and one turned about an axis by an angle that swings by 10 degrees."""
+    angle = np.radians(about_deg + 10.0 * np.sin(np.arange(n_frames)))
+    rest = np.tile([1.0, 0.0, 0.0, 0.0], (n_frames, 1, 1))
+    return rest, rotations.about_axis("X", angle)[:, None]
+
+
+@pytest.mark.parametrize("about_deg", [40.0, 165.0, 180.0, 195.0])
+def test_movements_half_a_turn_apart_are_blended_on_one_side(about_deg: float) -> None:
+    a, b = wobbling(20, about_deg)
+    b[7:12] *= -1.0
+    weight = np.linspace(0.05, 1.0, 20)
+    blended = rotations.slerp_movements(a, b, weight, np.array([0]))
+    angle = np.degrees(2.0 * np.arctan2(blended[:, 0, 1], blended[:, 0, 0]))
+    swing = about_deg + 10.0 * np.sin(np.arange(20))
+    sides = [weight * turned for turned in (swing, swing - 360.0)]
+    apart = [np.abs((angle - side + 180.0) % 360.0 - 180.0).max() for side in sides]
+    assert min(apart) < 1e-9
+    if about_deg != 180.0:
+        assert apart.index(min(apart)) == (0 if about_deg < 180.0 else 1)
+
+
+def test_movements_less_than_half_a_turn_apart_are_blended_frame_by_frame() -> None:
+    random = np.random.default_rng(3)
+    a = rotations.normalized(random.normal(size=(30, 5, 4)))
+    b = rotations.multiply(a, rotations.about_axis("Y", random.uniform(-3.0, 3.0, size=(1, 5)))) * random.choice(
+        [-1.0, 1.0], size=(30, 5, 1)
+    )
+    weight = random.uniform(size=30)
+    found = rotations.slerp_movements(a, b, weight, np.array([0, 4, 5, 20]))
+    assert_same_rotation(found, rotations.slerp(a, b, weight[:, None]))
+
+
+def test_each_blend_of_movements_takes_its_own_side() -> None:
+    (a, b), (_, c) = wobbling(20, 165.0), wobbling(20, 195.0)
+    b[10:] = c[10:]
+    weight = np.tile(np.linspace(0.1, 1.0, 10), 2)
+    both = rotations.slerp_movements(a, b, weight, np.array([0, 10]))
+    for part in (slice(0, 10), slice(10, 20)):
+        alone = rotations.slerp_movements(a[part], b[part], weight[part], np.array([0]))
+        assert_same_rotation(both[part], alone)
+
+
+def test_the_long_way_round_back_to_the_same_rotation_is_no_way() -> None:
+    q = rotations.normalized(np.array([[[0.1, 0.7, -0.3, 0.4]]]))
+    with np.errstate(all="raise"):
+        assert_same_rotation(rotations.slerp_movements(q, -q, np.array([0.5]), np.array([0])), q)

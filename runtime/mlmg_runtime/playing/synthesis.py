@@ -91,7 +91,8 @@ def _whole_body(library: Library, graph: MotionGraph, timeline: Timeline, blend:
         placement = _of_each(target, score.segment[at])
         goal = _placed(_sampled(pool.poses, score.target_rows), library.skeleton.travel, placement)
         share = 1.0 - score.weight
-        shown.rotations[at] = rotations.slerp(shown.rotations[at], goal.rotations, share[:, None])
+        starts = _starts(score.segment[at])
+        shown.rotations[at] = rotations.slerp_movements(shown.rotations[at], goal.rotations, share, starts)
         shown.positions[at] += share[:, None, None] * (goal.positions - shown.positions[at])
     return shown
 
@@ -108,8 +109,13 @@ def _lay_over(library: Library, graph: MotionGraph, timeline: Timeline, blend: s
         to_parent = np.isnan(score.target_rows)
         goal = poses.rotations[score.times[at][:, None], joints]
         goal[~to_parent] = _sampled(pool.poses, score.target_rows[~to_parent]).rotations[:, joints]
-        own[at] = rotations.slerp(own[at], goal, 1.0 - score.weight[:, None])
+        own[at] = rotations.slerp_movements(own[at], goal, 1.0 - score.weight, _starts(score.segment[at]))
     poses.rotations[score.times[:, None], joints] = own
+
+
+def _starts(segment: IntArray) -> IntArray:
+    """Return where in a list of segment numbers each segment starts."""
+    return np.flatnonzero(np.diff(segment, prepend=-1))
 
 
 def _pool(library: Library, graph: MotionGraph, segments: Sequence[Segment]) -> _Pool:
