@@ -201,7 +201,7 @@ def _ask(performer: Performer, move: Move) -> tuple[str, Any]:
     if move.call == "bring":
         what = _layers(performer, move)
     elif move.call == "end":
-        what = performer.library.graphs[1:][move.candidates[0] % 3]
+        what = performer.library.graphs[1:][move.candidates[0] % (len(performer.library.graphs) - 1)]
     getattr(performer, move.call)(what)
     return move.call, what
 
@@ -211,7 +211,7 @@ def _layers(performer: Performer, move: Move) -> list[tuple[str, list[str]]]:
     library = performer.library
     layers: list[tuple[str, list[str]]] = []
     drivers: dict[str, list[str]] = {}
-    for graph, is_named, number in zip(library.graphs, move.graphs, move.candidates, strict=True):
+    for graph, is_named, number in zip(library.graphs, move.graphs, move.candidates, strict=False):
         parent, motions = library.parent(graph), library.motions(graph)
         below_named = any(name in library.ancestors(graph) for name, _ in layers)
         drivers[graph] = drivers[parent] if below_named else [performer.motion(graph)]

@@ -153,6 +153,29 @@ def longest_steps(library: Library, timeline: Timeline) -> FloatArray:
     return longest
 
 
+@pytest.mark.parametrize("seed", range(8))
+def test_on_the_demo_library_no_joint_steps_farther_than_half_as_far_again_as_its_clips(
+    seed: int, moves, ask, demo_library: Library
+) -> None:
+    performer = Performer(demo_library, demo_library.root.motions[seed])
+    performer.hold(60)
+    for move in moves(seed):
+        ask(performer, move)
+    timeline = performer.timeline()
+    points = world_positions(demo_library.skeleton, synthesize(demo_library, timeline))
+    steps = np.linalg.norm(np.diff(points, axis=0), axis=-1)
+    longest = np.zeros_like(steps)
+    for name, segments in timeline.tracks.items():
+        graph = demo_library.by_name[name]
+        joints = list(graph.joints)
+        for segment in segments:
+            frames = slice(max(segment.begin - 1, 0), segment.end)
+            for motion in motions_of(segment):
+                own = steps_of_clip(demo_library, graph.motions[motion])
+                longest[frames, joints] = np.maximum(longest[frames, joints], own[joints])
+    assert np.all(steps <= 1.5 * longest)
+
+
 def steps_of_clip(library: Library, motion: str) -> FloatArray:
     points = world_positions(library.skeleton, library.poses(motion))
     return np.linalg.norm(np.diff(points, axis=0), axis=-1).max(axis=0)
