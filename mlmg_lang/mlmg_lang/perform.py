@@ -73,6 +73,7 @@ def perform(
         "frame_rate": rate,
         "n_frames": poses.n_frames,
         "seed": seed,
+        "up": library.up,
         "commands": [_command_entry(plan, *entry, ratio=ratio, n_frames=poses.n_frames) for entry in commands],
         "tracks": tracks_from_timeline(library, timeline, ratio, poses.n_frames),
         "joints": joints_from_timeline(library, timeline),

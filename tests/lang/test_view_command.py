@@ -220,3 +220,13 @@ def test_files_of_one_name_are_told_apart_by_their_paths(folder):
     (folder / "new/stroll.bvh").write_bytes((folder / "stroll.bvh").read_bytes())
     assert view("stroll.bvh", "new/stroll.bvh", "-o", "x.html") == 0
     assert "<title>stroll.bvh, new/stroll.bvh</title>" in (folder / "x.html").read_text(encoding="utf-8")
+
+
+def test_the_report_says_which_way_is_up_unless_one_is_told(folder):
+    (folder / "z.json").write_text(json.dumps({**REPORT, "up": "z"}))
+    (folder / "plain.json").write_text(json.dumps(REPORT))
+    assert view("stroll.bvh", "--report", "z.json", "-o", "said.html") == 0
+    assert view("stroll.bvh", "--report", "plain.json", "--up", "z", "-o", "told.html") == 0
+    assert view("stroll.bvh", "--report", "z.json", "--up", "y", "-o", "against.html") == 0
+    said, told, against = ((folder / f"{name}.html").read_bytes() for name in ("said", "told", "against"))
+    assert said == told != against

@@ -54,7 +54,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--report", metavar="R.json", action="append", default=[], help="what plays when; one for each motion"
     )
-    parser.add_argument("--up", choices=("y", "z"), default="y", help="the vertical axis of the files (y)")
+    parser.add_argument("--up", choices=("y", "z"), help="the vertical axis of the files; what the report says, else y")
     parser.add_argument(
         "--frames",
         metavar="F",
@@ -119,7 +119,7 @@ def _listed(words: Sequence[str]) -> str:
     return f"{', '.join(words[:-1])} or {words[-1]}"
 
 
-def _scenes(motions: Sequence[str], reports: Sequence[str], up: str) -> list[Scene]:
+def _scenes(motions: Sequence[str], reports: Sequence[str], up: str | None) -> list[Scene]:
     from mlmg_runtime.view.scene import scene_from_bvh
 
     stems = Counter(Path(motion).stem for motion in motions)
@@ -129,7 +129,8 @@ def _scenes(motions: Sequence[str], reports: Sequence[str], up: str) -> list[Sce
         story = _story(motion, reports[index] if reports else None, bvh.frames.shape[0])
         stem = Path(motion).stem
         name = "standard input" if motion == _STANDARD_INPUT else stem if stems[stem] == 1 else motion
-        scenes.append(scene_from_bvh(bvh, name, up=up, story=story))
+        told = story.up if story is not None else None
+        scenes.append(scene_from_bvh(bvh, name, up=up or told or "y", story=story))
     return scenes
 
 

@@ -52,11 +52,13 @@ class Story:
     commands : in the order in which they were executed.
     tracks : one a graph, the root graph first.
     joints : the names of the joints that each graph moves, for the graphs of which the report says so.
+    up : the vertical axis of the motion, "y" or "z", or None where the report does not say.
     """
 
     commands: tuple[Command, ...] = ()
     tracks: tuple[Track, ...] = ()
     joints: tuple[tuple[str, tuple[str, ...]], ...] = ()
+    up: str | None = None
 
     def command_at(self, frame: int) -> Command | None:
         """Return the command under way: the last that has begun."""
@@ -117,7 +119,8 @@ def story_from_report(report: Mapping[str, Any]) -> Story:
         Track(str(graph), tuple(_stretch(entry) for entry in entries)) for graph, entries in report["tracks"].items()
     )
     joints = tuple((str(graph), tuple(map(str, names))) for graph, names in report.get("joints", {}).items())
-    return Story(commands, tracks, joints)
+    up = report.get("up")
+    return Story(commands, tracks, joints, up if up in ("y", "z") else None)
 
 
 def _stretch(entry: Mapping[str, Any]) -> Stretch:
