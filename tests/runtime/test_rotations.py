@@ -211,3 +211,10 @@ def test_the_long_way_round_back_to_the_same_rotation_is_no_way() -> None:
     q = rotations.normalized(np.array([[[0.1, 0.7, -0.3, 0.4]]]))
     with np.errstate(all="raise"):
         assert_same_rotation(rotations.slerp_movements(q, -q, np.array([0.5]), np.array([0])), q)
+
+
+def test_a_movement_that_comes_all_the_way_round_is_where_it_was() -> None:
+    a, _ = wobbling(4, 0.0)
+    b = rotations.about_axis("X", np.radians([[0.0], [20.0], [190.0], [360.0]]))
+    found = rotations.slerp_movements(a, b, np.array([0.5, 0.5, 0.3, 0.5]), np.array([0]))
+    assert_same_rotation(found[3], a[3])

@@ -332,3 +332,28 @@ def test_the_clips_of_the_library_are_left_as_they_were(
     poses: Poses = synthesize(small_library, timeline)
     poses.rotations[:] = 0.0
     assert {m: small_library.poses(m).rotations.tobytes() for m in small_library.root.motions} == before
+
+
+def test_each_blend_of_a_joint_goes_the_shorter_way_round(small_library: Library) -> None:
+    from dataclasses import replace
+
+    turned = {"Stand": 0.0, "Wave": 165.0, "Reach": 195.0}
+    poses = {}
+    for motion, angle_deg in turned.items():
+        clip = small_library.poses(motion)
+        wobble = np.radians(angle_deg + 20.0 * np.sin(2.0 * np.arange(clip.n_frames)))
+        still = np.zeros_like(clip.rotations)
+        still[..., 0] = 1.0
+        still[:, 2] = rotations.about_axis("Z", wobble if angle_deg else 0.0 * wobble)
+        poses[motion] = Poses(still, clip.positions)
+    library = replace(small_library, _poses=poses)
+    arm = (
+        Blend(0, 6, Position(0, 10), None),
+        Clip(20, 25, Position(1, 5), 5),
+        Blend(25, 31, Position(1, 10), None),
+    )
+    timeline = Timeline(40, {"Full-Body": (Clip(0, 40, Position(0, 0), 40),), "Left-Arm": arm})
+    left = synthesize(library, timeline).rotations[:, 2]
+    angle_deg = np.degrees(2.0 * np.arctan2(left[:, 3], left[:, 0])) % 360.0
+    assert np.all(angle_deg[1:5] < 185.0)
+    assert np.all(angle_deg[26:30] > 175.0)
