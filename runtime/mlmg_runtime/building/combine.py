@@ -55,13 +55,21 @@ def graph_parents(
     Raises
     ------
     ConfigurationError
-        If no graph, or more than one, holds the whole body, or two graphs share some of their joints only.
+        If no graph, or more than one, holds the whole body, two graphs share some of their joints only, or a part of
+        the body holds the travel joint.
     """
     graphs = configuration.graphs
     parents: list[int | None] = []
     for index, own in enumerate(joints):
         above = [other for other in range(len(joints)) if own < joints[other]]
         parents.append(min(above, key=lambda other: len(joints[other]), default=None))
+        if above and skeleton.travel in own:
+            raise ConfigurationError(
+                configuration.path,
+                graphs[index].line,
+                f"`{graphs[index].name}` holds {skeleton.names[skeleton.travel]}, which carries the whole body and "
+                "cannot move on its own; name joints below it",
+            )
         for other in range(index):
             shared = own & joints[other]
             if shared and not (own < joints[other] or joints[other] < own):

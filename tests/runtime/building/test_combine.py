@@ -124,6 +124,11 @@ ROWS = [
         "other and more, or they must share none",
     ),
     (
+        [graph("All"), graph("Lower", ["Hips"], without=["Spine"], line=9)],
+        "library.toml:9: `Lower` holds Hips, which carries the whole body and cannot move on its own; name joints "
+        "below it",
+    ),
+    (
         [graph("Upper", ["Spine"]), graph("Leg", ["Leg"], line=9)],
         "library.toml:7: no graph holds the whole body; leave `joints` out of one",
     ),
