@@ -1,6 +1,7 @@
-"""No joint of the demo library ever steps farther between two frames than its clips let expect.
+"""In these scripts no joint of the demo library steps farther between two frames than its clips let expect.
 
-The longest step of a joint in the world is at most 1.5 times its longest in the clips that play at the time.
+The longest step of a joint in the world is at most 1.5 times its longest in the clips that play at the time. Of a
+hundred and fifty random scripts fourteen exceed that, by up to 1.58, in blends made on the spot: docs/measurements.md.
 """
 
 from __future__ import annotations

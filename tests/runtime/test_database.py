@@ -160,7 +160,7 @@ def test_a_damaged_file_is_told_in_one_sentence_or_does_no_harm(path: Path) -> N
         with suppress(LibraryError):
             use(open_library(path))
             harmless += 1
-    assert harmless < 30
+    assert harmless < 100
 
 
 @pytest.mark.parametrize("table", ["property", "clip", "graph", "motion"])

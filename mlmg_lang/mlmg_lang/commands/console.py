@@ -15,6 +15,8 @@ DONE = 0
 WRONG_CONTENT = 1
 WRONG_USAGE = 2
 INTERRUPTED = 130
+# As a shell tells of a program that wrote to a pipe nobody reads.
+NOT_READ = 141
 
 
 class UsageError(Exception):
@@ -24,7 +26,8 @@ class UsageError(Exception):
 def run_command(program: str, command: Callable[[], int]) -> int:
     """Run a command and return its exit code; what goes wrong is told in one line on standard error.
 
-    0 done; 1 the content of a file is wrong; 2 a file cannot be opened or written; 130 interrupted.
+    0 done; 1 the content of a file is wrong; 2 a file cannot be opened or written; 130 interrupted; 141 nobody reads
+    the output.
     """
     from mlmg_runtime.errors import MlmgError
 
@@ -42,7 +45,7 @@ def run_command(program: str, command: Callable[[], int]) -> int:
         # Whoever read our output has gone; standard output must not be flushed again at exit.
         with suppress(OSError):
             os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return DONE
+        return NOT_READ
     except OSError as error:
         name = f"{error.filename}: " if error.filename else ""
         tell(f"{program}: error: {name}{error.strerror or error}")

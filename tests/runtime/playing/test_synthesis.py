@@ -122,7 +122,9 @@ def test_the_same_timeline_gives_the_same_bytes(seed: int, play, small_library: 
 
 @settings(max_examples=60)
 @given(seed=SEEDS)
-def test_no_joint_jumps(seed: int, play, small_library: Library) -> None:
+def test_no_joint_goes_farther_than_its_clips_and_the_gap_of_its_transition(
+    seed: int, play, small_library: Library
+) -> None:
     timeline = play(seed)
     points = world_positions(small_library.skeleton, synthesize(small_library, timeline))
     steps = np.linalg.norm(np.diff(points, axis=0), axis=-1)
