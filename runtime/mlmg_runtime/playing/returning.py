@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from math import ceil, floor
+from heapq import heappop, heappush
+from math import ceil, floor, inf
 from typing import NamedTuple
 
 from mlmg_runtime.motion_graph import MotionGraph, Position, Transition
@@ -22,15 +23,23 @@ class _Landing(NamedTuple):
     latest: int
 
 
+class _Way(NamedTuple):
+    """A path, by when it can have ended: transitions taken, their costs, and the position after the last."""
+
+    lands: _Landing
+    edges: tuple[Transition, ...]
+    cost: float
+    at: Position
+
+
 @dataclass(frozen=True, slots=True)
 class _Meeting:
-    """One way back: transitions taken, when the last ends, and the frames of the last clip until it meets."""
+    """One way back: when its last transition ends, and the frames of the last clip until it meets."""
 
-    way: tuple[Transition, ...]
+    way: _Way
     landed: int
     n_output: int
     n_source: int
-    bend: int
 
     @property
     def at(self) -> int:
@@ -38,7 +47,8 @@ class _Meeting:
 
     @property
     def key(self) -> tuple[int, float, int]:
-        return self.at, sum(edge.cost for edge in self.way), self.bend
+        bend = abs(self.landed - self.way.lands.unbent) + abs(self.n_source - self.n_output)
+        return self.at, self.way.cost, bend
 
 
 def find_return(
@@ -56,55 +66,49 @@ def find_return(
     deadline : the latest output frame at which the two may meet.
     """
     best: _Meeting | None = None
-    for way, lands in _ways(graph, position, time, deadline):
-        for meeting in _meetings(graph, way, way[-1].arrival if way else position, lands, above, deadline):
+    pending = [_Way(_Landing(time, time, time), (), 0.0, position)]
+    # Of ways that land in the same place at the same times only the smoothest counts; without this there are too many.
+    smoothest: dict[tuple[Position, _Landing], float] = {}
+    while pending and pending[0].lands.earliest <= deadline:
+        way = heappop(pending)
+        for meeting in _meetings(graph, way, above, deadline):
             if best is None or meeting.key < best.key:
-                best = meeting
+                best, deadline = meeting, meeting.at
+        for onward in _onward(graph, way, deadline):
+            if onward.cost < smoothest.get((onward.at, onward.lands), inf):
+                smoothest[onward.at, onward.lands] = onward.cost
+                heappush(pending, onward)
     return None if best is None else _segments(graph, position, time, best)
 
 
-def _ways(
-    graph: MotionGraph, position: Position, time: int, deadline: int
-) -> Iterator[tuple[tuple[Transition, ...], _Landing]]:
-    """Yield paths of any number of transitions, with the times at which each can have ended."""
-    pending: list[tuple[tuple[Transition, ...], Position, _Landing]] = [((), position, _Landing(time, time, time))]
-    while pending:
-        way, at, lands = pending.pop()
-        yield way, lands
-        for edge in graph.edges[graph.first_edge[at.motion] : graph.first_edge[at.motion + 1]]:
-            n_source = edge.src_frame - at.frame
-            if n_source < 0:
-                continue
-            after = _Landing(
-                lands.earliest + _fewest(n_source) + graph.window,
-                lands.unbent + n_source + graph.window,
-                lands.latest + _most(n_source) + graph.window,
-            )
-            if after.earliest > deadline:
-                break
-            pending.append(((*way, edge), edge.arrival, after))
-
-
-def _meetings(
-    graph: MotionGraph,
-    way: tuple[Transition, ...],
-    landing: Position,
-    lands: _Landing,
-    above: Sequence[Clip],
-    deadline: int,
-) -> Iterator[_Meeting]:
-    """Yield where a clip entered at `landing`, at any of the times of `lands`, can meet the graph above."""
-    for clip in above:
-        if clip.first.motion != landing.motion:
+def _onward(graph: MotionGraph, way: _Way, deadline: int) -> Iterator[_Way]:
+    """Yield a way with one more transition, for each that can have ended by the deadline."""
+    for edge in graph.edges[graph.first_edge[way.at.motion] : graph.first_edge[way.at.motion + 1]]:
+        n_source = edge.src_frame - way.at.frame
+        if n_source < 0:
             continue
-        for landed in range(lands.earliest, min(lands.latest, clip.end, deadline) + 1):
-            ahead = clip.first.frame + landed - clip.begin - landing.frame
+        lands = _Landing(
+            way.lands.earliest + _fewest(n_source) + graph.window,
+            way.lands.unbent + n_source + graph.window,
+            way.lands.latest + _most(n_source) + graph.window,
+        )
+        if lands.earliest > deadline:
+            return
+        yield _Way(lands, (*way.edges, edge), way.cost + edge.cost, edge.arrival)
+
+
+def _meetings(graph: MotionGraph, way: _Way, above: Sequence[Clip], deadline: int) -> Iterator[_Meeting]:
+    """Yield where the clip that a way lands in can meet the graph above."""
+    motion, frame = way.at
+    for clip in above:
+        if clip.first.motion != motion:
+            continue
+        for landed in range(way.lands.earliest, min(way.lands.latest, clip.end, deadline) + 1):
+            ahead = clip.first.frame + landed - clip.begin - frame
             n_output = max(ceil(abs(ahead) / LARGEST_BEND - 1e-9), clip.begin - landed)
-            meets = landed + n_output
-            within_clip = landing.frame + n_output + ahead < graph.n_frames[landing.motion]
-            if meets <= min(clip.end, deadline) and within_clip:
-                bend = abs(landed - lands.unbent) + abs(ahead)
-                yield _Meeting(way, landed, n_output, n_output + ahead, bend)
+            within_clip = frame + n_output + ahead < graph.n_frames[motion]
+            if landed + n_output <= min(clip.end, deadline) and within_clip:
+                yield _Meeting(way, landed, n_output, n_output + ahead)
 
 
 def _fewest(n_source: int) -> int:
@@ -122,12 +126,12 @@ def _segments(graph: MotionGraph, position: Position, time: int, meeting: _Meeti
     segments: list[Segment] = []
     lengths: list[int] = []
     at = position
-    for edge in meeting.way:
+    for edge in meeting.way.edges:
         lengths.append(edge.src_frame - at.frame)
         at = edge.arrival
     spare = meeting.landed - time - graph.window * len(lengths) - sum(lengths)
     at = position
-    for edge, n_source in zip(meeting.way, lengths, strict=True):
+    for edge, n_source in zip(meeting.way.edges, lengths, strict=True):
         change = min(max(spare, _fewest(n_source) - n_source), _most(n_source) - n_source)
         spare -= change
         segments += _bent(time, at, n_source + change, n_source)
