@@ -23,11 +23,12 @@ def last_shown(report: dict[str, Any], graph: str = "Full-Body") -> tuple[str, i
     return entry["motion"], entry["clip_begin"] + entry["end"] - 1 - entry["begin"]
 
 
-@pytest.mark.parametrize("script", ["Walk_01", "Idle_01 for 1 sec\nWalk_01", "wait 10 sec\nMusic_01"])
-def test_the_last_command_plays_to_the_last_frame_of_its_clip(script: str, demo_library: Library) -> None:
-    motion, frame = last_shown(report_of(script, demo_library))
-    assert motion == script.split()[-1]
-    assert frame == demo_library.n_frames(motion) - 1
+@pytest.mark.parametrize(
+    ("before", "motion"), [("", "Walk_01"), ("Idle_01 for 1 sec", "Walk_01"), ("wait 10 sec", "Music_01")]
+)
+def test_the_last_command_plays_to_the_last_frame_of_its_clip(before: str, motion: str, demo_library: Library) -> None:
+    report = report_of(f"{before}\n{motion}", demo_library)
+    assert last_shown(report) == (motion, demo_library.n_frames(motion) - 1)
 
 
 def test_it_is_the_topmost_named_motion_that_plays_to_its_end(demo_library: Library) -> None:
