@@ -137,7 +137,7 @@ def libraries() -> Mapping[str, FakeCatalog | None]:
     return LIBRARIES
 
 
-@pytest.fixture
+@pytest.fixture(scope="session")
 def catalog() -> type[FakeCatalog]:
     """Return what makes a library of names."""
     return FakeCatalog
