@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from mlmg_runtime.building.configuration import GraphConfiguration, LibraryConfiguration
+from mlmg_runtime.building.toml_files import did_you_mean
 from mlmg_runtime.errors import ConfigurationError
 from mlmg_runtime.point_cloud import Matrix
 from mlmg_runtime.skeleton import Skeleton
@@ -22,29 +23,33 @@ def graph_joints(configuration: LibraryConfiguration, graph: GraphConfiguration,
     ConfigurationError
         If a joint is not in the skeleton, or the graph is left without a joint of positive weight.
     """
+
+    def subtree(key: str, name: str) -> frozenset[int]:
+        if name not in skeleton.names:
+            raise _no_joint(configuration, graph, skeleton, key, name)
+        return skeleton.subtree(skeleton.names.index(name))
+
     wanted = frozenset(skeleton.body)
     if graph.joints is not None:
-        wanted = frozenset().union(*(_subtree(configuration, graph, skeleton, name) for name in graph.joints))
-    wanted -= frozenset().union(*(_subtree(configuration, graph, skeleton, name) for name in graph.without))
+        wanted = frozenset().union(*(subtree("joints", name) for name in graph.joints))
+    wanted -= frozenset().union(*(subtree("without", name) for name in graph.without))
     wanted &= frozenset(skeleton.body)
     for name in graph.weights:
-        _subtree(configuration, graph, skeleton, name)
+        subtree("weights", name)
     if not any(graph.weights.get(skeleton.names[joint], 1.0) > 0 for joint in wanted):
         raise ConfigurationError(configuration.path, graph.line, f"no joint is left for the graph `{graph.name}`")
     return wanted
 
 
-def _subtree(
-    configuration: LibraryConfiguration, graph: GraphConfiguration, skeleton: Skeleton, name: str
-) -> frozenset[int]:
-    if name not in skeleton.names:
-        raise ConfigurationError(
-            configuration.path,
-            graph.line,
-            f"the graph `{graph.name}` names a joint `{name}` that the skeleton has not; "
-            f"it has {', '.join(skeleton.names)}",
-        )
-    return skeleton.subtree(skeleton.names.index(name))
+def _no_joint(
+    configuration: LibraryConfiguration, graph: GraphConfiguration, skeleton: Skeleton, key: str, name: str
+) -> ConfigurationError:
+    """Return what to say of a joint that is named under a graph's key and that no clip has."""
+    at = ("graph", configuration.graphs.index(graph), key)
+    line = configuration.lines.get((*at, name), configuration.lines.get(at, graph.line))
+    near = did_you_mean(name, skeleton.names) or f"; it has {', '.join(skeleton.names)}"
+    message = f"the graph `{graph.name}` names a joint `{name}` that the skeleton has not{near}"
+    return ConfigurationError(configuration.path, line, message)
 
 
 def graph_parents(

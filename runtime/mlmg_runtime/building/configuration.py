@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import math
-import tomllib
 import unicodedata
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
-from difflib import get_close_matches
 from pathlib import Path
 from typing import Any, NoReturn
 
-from mlmg_runtime.building.toml_lines import KeyPath, key_lines
+from mlmg_runtime.building.toml_files import TomlFile, did_you_mean, read_toml
+from mlmg_runtime.building.toml_lines import KeyPath
 from mlmg_runtime.errors import ConfigurationError
 
 DEFAULT_WINDOW = 20
@@ -82,18 +81,8 @@ def read_configuration(path: Path) -> LibraryConfiguration:
     OSError
         If the file cannot be opened.
     """
-    data = path.read_bytes()
-    try:
-        text = data.decode("utf-8-sig")
-        document = tomllib.loads(text)
-    except UnicodeDecodeError as error:
-        line = data[: error.start].count(b"\n") + 1
-        raise ConfigurationError(
-            path, line, "found bytes that are not UTF-8; a configuration is a UTF-8 text"
-        ) from None
-    except tomllib.TOMLDecodeError as error:
-        raise _toml_error(path, text, str(error)) from None
-    return _Reader(path, document, key_lines(text)).library()
+    file = read_toml(path)
+    return _Reader(file, file.document).library()
 
 
 def check_start(configuration: LibraryConfiguration, root: GraphConfiguration) -> None:
@@ -109,24 +98,16 @@ def check_start(configuration: LibraryConfiguration, root: GraphConfiguration) -
         raise ConfigurationError(
             configuration.path,
             configuration.lines.get(("library", "start")),
-            f"start `{start}` is not a motion of `{root.name}`{_near(start, list(root.motions))}",
+            f"start `{start}` is not a motion of `{root.name}`{did_you_mean(start, list(root.motions))}",
         )
-
-
-def _toml_error(path: Path, text: str, message: str) -> ConfigurationError:
-    what, _, where = message.rpartition(" (at ")
-    number = where.removeprefix("line ").split(",")[0]
-    line = int(number) if number.isdigit() else len(text.splitlines())
-    return ConfigurationError(path, line, f"not valid TOML: {what or message}")
 
 
 @dataclass(frozen=True, slots=True)
 class _Reader:
     """Takes a parsed document apart; every value that is taken is checked."""
 
-    path: Path
+    file: TomlFile
     document: dict[str, Any]
-    lines: Mapping[KeyPath, int]
 
     def library(self) -> LibraryConfiguration:
         self._known(self.document, (), ("library", "clips", "graph", "tags", "groups", "transitions"))
@@ -140,13 +121,13 @@ class _Reader:
         graphs = self._with_forbidden(graphs)
         start = self._text(library, ("library", "start"), None)
         return LibraryConfiguration(
-            path=self.path,
+            path=self.file.path,
             clips=tuple(clip for clip in clips if any(clip.name in graph.motions for graph in graphs)),
             frame_rate=self._positive(library, ("library", "frame_rate")),
             up=self._choice(library, ("library", "up"), ("y", "z"), "y"),
             start=None if start is None else _nfc(start),
             graphs=graphs,
-            lines=self.lines,
+            lines=self.file.lines,
         )
 
     # Clips
@@ -167,7 +148,7 @@ class _Reader:
                         at,
                         f"two clips are named `{name}`: {found[name].path} and {path}; name one with [clips.NAME]",
                     )
-                found.setdefault(name, ClipSource(name, path, self.lines.get(at)))
+                found.setdefault(name, ClipSource(name, path, self.file.lines.get(at)))
         found.update(named)
         if not found:
             self._fail(
@@ -179,7 +160,7 @@ class _Reader:
         return list(found.values())
 
     def _matches(self, pattern: str, at: KeyPath) -> list[Path]:
-        folder = self.path.parent
+        folder = self.file.path.parent
         if not any(character in pattern for character in "*?["):
             path = folder / pattern
             if not path.is_file():
@@ -195,13 +176,13 @@ class _Reader:
         if not isinstance(table, dict):
             self._fail(at, f"[clips.{name}] must be a table with the keys file, frames, mirror")
         self._known(table, at, ("file", "frames", "mirror"))
-        path = self.path.parent / str(self._text(table, (*at, "file"), f"{name}.bvh"))
+        path = self.file.path.parent / str(self._text(table, (*at, "file"), f"{name}.bvh"))
         if not path.is_file():
             self._fail((*at, "file") if "file" in table else at, f"there is no clip {path}")
         mirror = table.get("mirror", False)
         if not isinstance(mirror, bool):
             self._fail((*at, "mirror"), f"mirror must be true or false, found {mirror!r}")
-        return ClipSource(_nfc(name), path, self.lines.get(at), self._frames(table, at), mirror)
+        return ClipSource(_nfc(name), path, self.file.lines.get(at), self._frames(table, at), mirror)
 
     def _frames(self, table: dict[str, Any], at: KeyPath) -> tuple[int, int] | None:
         frames = table.get("frames")
@@ -232,7 +213,7 @@ class _Reader:
                 self._fail(("graph", index), f"two graphs are named `{graph.name}`")
         for name in tags:
             if name not in graph_names:
-                self._fail(("tags", name), f"[tags.{name}] names no graph{_near(name, graph_names)}")
+                self._fail(("tags", name), f"[tags.{name}] names no graph{did_you_mean(name, graph_names)}")
         return graphs
 
     def _graph(
@@ -255,7 +236,7 @@ class _Reader:
         own = tags.get(_nfc(name), {})
         return GraphConfiguration(
             name=_nfc(name),
-            line=self.lines.get(at),
+            line=self.file.lines.get(at),
             joints=self._texts(table, (*at, "joints"), ()) if "joints" in table else None,
             without=self._texts(table, (*at, "without"), ()),
             window=window,
@@ -303,7 +284,7 @@ class _Reader:
             for motion in table:
                 at: KeyPath = ("tags", graph, motion)
                 if _nfc(motion) not in names:
-                    self._fail(at, f"there is no clip `{motion}`{_near(motion, names)}")
+                    self._fail(at, f"there is no clip `{motion}`{did_you_mean(motion, names)}")
                 found[_nfc(graph)][_nfc(motion)] = tuple(map(_nfc, self._texts(table, at, ())))
         return found
 
@@ -316,7 +297,7 @@ class _Reader:
             if not graph.motions:
                 at: KeyPath = ("tags", graph.name)
                 self._fail(
-                    at if at in self.lines else ("graph", index),
+                    at if at in self.file.lines else ("graph", index),
                     f"the graph `{graph.name}` has no motion; give it clips under [tags.{graph.name}]",
                 )
             for motion, tags in graph.motions.items():
@@ -333,8 +314,7 @@ class _Reader:
     # Groups and transitions
 
     def _with_forbidden(self, graphs: tuple[GraphConfiguration, ...]) -> tuple[GraphConfiguration, ...]:
-        table = self._table(self.document, ("groups",))
-        groups = {_nfc(name): self._texts(table, ("groups", name), ()) for name in table}
+        groups = self._groups(graphs)
         entries = self.document.get("transitions", [])
         if not isinstance(entries, list) or not all(isinstance(entry, dict) for entry in entries):
             self._fail(("transitions",), "rules for transitions are written as [[transitions]] tables")
@@ -349,6 +329,26 @@ class _Reader:
                 everything = {(a, b) for a in graph.motions for b in graph.motions if a != b}
                 forbidden[name] |= everything - self._pairs(entry, (*at, "allow"), graph, groups)
         return tuple(_replace_forbidden(graph, frozenset(forbidden[graph.name])) for graph in graphs)
+
+    def _groups(self, graphs: tuple[GraphConfiguration, ...]) -> dict[str, tuple[str, ...]]:
+        """Return the members of each group: names of motions, tags and groups."""
+        table = self._table(self.document, ("groups",))
+        groups = {_nfc(name): tuple(map(_nfc, self._texts(table, ("groups", name), ()))) for name in table}
+        motions = {motion for graph in graphs for motion in graph.motions}
+        tags = {tag for graph in graphs for own in graph.motions.values() for tag in own}
+        for name, members in groups.items():
+            at: KeyPath = ("groups", name)
+            if name in motions | tags:
+                what = "motion" if name in motions else "tag"
+                self._fail(at, f"the group `{name}` is spelt like a {what}; a name can mean one thing only")
+            for member in members:
+                if member not in motions | tags | groups.keys():
+                    near = did_you_mean(member, sorted(motions | tags | groups.keys()))
+                    self._fail(at, f"the group `{name}` names `{member}`, which is no motion, tag or group{near}")
+        for name in groups:
+            if name in _inside(name, groups):
+                self._fail(("groups", name), f"the group `{name}` is a member of itself")
+        return groups
 
     def _pairs(
         self, entry: dict[str, Any], at: KeyPath, graph: GraphConfiguration, groups: Mapping[str, tuple[str, ...]]
@@ -368,31 +368,22 @@ class _Reader:
         at: KeyPath,
         graph: GraphConfiguration,
         groups: Mapping[str, tuple[str, ...]],
-        within: tuple[str, ...] = (),
     ) -> set[str]:
         name = _nfc(name)
-        if name in within:
-            self._fail(("groups", name), f"the group `{name}` is a member of itself")
         if name in graph.motions:
             return {name}
         tagged = {motion for motion, tags in graph.motions.items() if name in tags}
         if tagged:
             return tagged
         if name in groups:
-            inside = (*within, name)
-            return set().union(*(self._members(member, at, graph, groups, inside) for member in groups[name]))
+            return set().union(*(self._members(member, at, graph, groups) for member in groups[name]))
         known = [*graph.motions, *{tag for tags in graph.motions.values() for tag in tags}, *groups]
-        self._fail(at, f"`{name}` is no motion or tag of `{graph.name}` and no group{_near(name, known)}")
+        self._fail(at, f"`{name}` is no motion or tag of `{graph.name}` and no group{did_you_mean(name, known)}")
 
     # Values
 
     def _known(self, table: dict[str, Any], at: KeyPath, keys: Iterable[str]) -> None:
-        for key in table:
-            if key not in keys:
-                self._fail(
-                    (*at, key),
-                    f"unknown key `{key}`{_near(key, list(keys))}; expected one of {', '.join(keys)}",
-                )
+        self.file.check_keys(table, at, keys)
 
     def _table(self, parent: dict[str, Any], at: KeyPath) -> dict[str, Any]:
         value = parent.get(str(at[-1]), {})
@@ -425,8 +416,19 @@ class _Reader:
         return None if value is None else float(value)
 
     def _fail(self, at: KeyPath, message: str) -> NoReturn:
-        line = next((self.lines[at[:length]] for length in range(len(at), 0, -1) if at[:length] in self.lines), None)
-        raise ConfigurationError(self.path, line, message)
+        self.file.fail(at, message)
+
+
+def _inside(name: str, groups: Mapping[str, tuple[str, ...]]) -> set[str]:
+    """Return the members of a group, and theirs, however deep."""
+    found: set[str] = set()
+    waiting = list(groups[name])
+    while waiting:
+        member = waiting.pop()
+        if member not in found:
+            found.add(member)
+            waiting += groups.get(member, ())
+    return found
 
 
 def _whole(graphs: tuple[GraphConfiguration, ...]) -> GraphConfiguration:
@@ -444,8 +446,3 @@ def _is_number(value: object) -> bool:
 
 def _nfc(name: str) -> str:
     return unicodedata.normalize("NFC", name)
-
-
-def _near(name: str, known: list[str]) -> str:
-    near = get_close_matches(name, known, n=1)
-    return f"; did you mean `{near[0]}`?" if near else ""

@@ -3,13 +3,22 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import TypeAlias
 
 KeyPath: TypeAlias = tuple[str | int, ...]
 
 _HEADER = re.compile(r"\s*(\[\[?)(.*?)\]\]?\s*(?:#.*)?$")
 _KEY = re.compile(r"""\s*((?:[\w-]+|"[^"]*"|'[^']*')(?:\s*\.\s*(?:[\w-]+|"[^"]*"|'[^']*'))*)\s*=""")
+# What says whether a line goes on with the value of the last: strings, which may hold anything, and brackets.
+_TOKEN = re.compile(
+    r"""
+    "{3} (?: \\. | [^\\] )*? "{3,5} | '{3} .*? '{3,5}     # over several lines
+    | " (?: \\. | [^"\\\n] )* " | ' [^'\n]* '
+    | \# [^\n]* | [\[\]{}] | \n
+    """,
+    re.DOTALL | re.VERBOSE,
+)
 _PART = re.compile(r"""[^\s."']+|"([^"]*)"|'([^']*)'""")
 
 
@@ -21,7 +30,7 @@ def key_lines(text: str) -> Mapping[KeyPath, int]:
     lines: dict[KeyPath, int] = {}
     counts: dict[KeyPath, int] = {}
     table: KeyPath = ()
-    for number, line in enumerate(text.splitlines(), start=1):
+    for number, line in _first_lines(text):
         if header := _HEADER.match(line):
             name = _parts(header[2])
             table = _inside_arrays(name, counts)
@@ -32,6 +41,20 @@ def key_lines(text: str) -> Mapping[KeyPath, int]:
         elif key := _KEY.match(line):
             lines.setdefault((*table, *_parts(key[1])), number)
     return lines
+
+
+def _first_lines(text: str) -> Iterator[tuple[int, str]]:
+    """Yield, with their numbers, the lines that do not go on with a value begun on another."""
+    depth, number, firsts = 0, 1, {1}
+    for token in _TOKEN.findall(text):
+        number += token.count("\n")
+        if token in ("[", "{"):
+            depth += 1
+        elif token in ("]", "}"):
+            depth -= 1
+        elif token == "\n" and depth == 0:
+            firsts.add(number)
+    return ((at, line) for at, line in enumerate(text.split("\n"), start=1) if at in firsts)
 
 
 def _parts(dotted: str) -> KeyPath:

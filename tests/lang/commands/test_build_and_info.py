@@ -31,8 +31,8 @@ def test_a_mistake_in_the_configuration_is_one_line_with_file_and_line(folder, c
     (folder / "library.toml").write_text('[library]\nclips = ["*.bvh"]\nstrat = "Stand"\n', encoding="utf-8")
     assert mlmg.main(["build", "library.toml", "-o", "my.mlmg"]) == 1
     assert capsys.readouterr().err == (
-        "mlmg build: error: library.toml:3: unknown key `strat`; did you mean `start`?; "
-        "expected one of clips, frame_rate, up, start\n"
+        "mlmg build: error: library.toml:3: unknown key `strat`; "
+        "expected one of clips, frame_rate, up, start; did you mean `start`?\n"
     )
     assert not (folder / "my.mlmg").exists()
 

@@ -1,3 +1,4 @@
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -88,6 +89,20 @@ def test_a_graph_holds_the_subtrees_of_its_joints_less_those_it_is_without(skele
     assert joints_of(skeleton, graph("Lower", without=["Spine"])) == {"Hips", "Leg"}
 
 
+def test_a_joint_that_is_not_there_is_told_with_the_line_of_its_name(skeleton: Skeleton) -> None:
+    graphs = (graph("All"), graph("Upper", ["Spine"], without=["arml"], weights={"Spin": 2.0}))
+    lines = {("graph", 1): 7, ("graph", 1, "without"): 9, ("graph", 1, "weights"): 10}
+    wrong = replace(configured(*graphs), lines=lines)
+    with pytest.raises(ConfigurationError, match=r"toml:9: .* `arml` .* did you mean `ArmL`\?"):
+        graph_joints(wrong, graphs[1], skeleton)
+    right = replace(graphs[1], without=())
+    with pytest.raises(ConfigurationError, match=r"toml:10: .* `Spin` .* did you mean `Spine`\?"):
+        graph_joints(replace(wrong, graphs=(graphs[0], right)), right, skeleton)
+    lines[("graph", 1, "weights", "Spin")] = 11
+    with pytest.raises(ConfigurationError, match=r"toml:11: "):
+        graph_joints(replace(wrong, graphs=(graphs[0], right), lines=lines), right, skeleton)
+
+
 def test_graphs_form_a_tree_by_their_joints(skeleton: Skeleton) -> None:
     graphs = (graph("All"), graph("Upper", ["Spine"]), graph("L", ["ArmL"]), graph("R", ["HandR"]))
     assert parents_of(skeleton, *graphs) == (None, 0, 1, 1)
@@ -97,8 +112,11 @@ def test_graphs_form_a_tree_by_their_joints(skeleton: Skeleton) -> None:
 ROWS = [
     (
         [graph("All"), graph("Upper", ["Sipne"])],
-        "library.toml:7: the graph `Upper` names a joint `Sipne` that the skeleton has not; "
-        "it has Reference, Hips, Spine, ArmL, HandL, ArmR, HandR, Leg",
+        "library.toml:7: the graph `Upper` names a joint `Sipne` that the skeleton has not; did you mean `Spine`?",
+    ),
+    (
+        [graph("All"), graph("Upper", ["spine"])],
+        "library.toml:7: the graph `Upper` names a joint `spine` that the skeleton has not; did you mean `Spine`?",
     ),
     (
         [graph("All", weights={"Fin": 1.0})],

@@ -41,14 +41,14 @@ MISTAKES = [
     (
         "libary = 3",
         1,
-        "unknown key `libary`; did you mean `library`?; expected one of library, clips, graph, tags, groups, "
-        "transitions",
+        "unknown key `libary`; expected one of library, clips, graph, tags, groups, transitions; "
+        "did you mean `library`?",
     ),
     ("library = 3", 1, "library must be a table, found 3"),
     (
         '[library]\nclip = ["*.bvh"]',
         2,
-        "unknown key `clip`; did you mean `clips`?; expected one of clips, frame_rate, up, start",
+        "unknown key `clip`; expected one of clips, frame_rate, up, start; did you mean `clips`?",
     ),
     ('[library]\nclips = "*.bvh"', 2, "clips must be a list of texts, found '*.bvh'"),
     ("[library]\nclips = [1]", 2, "clips must be a list of texts, found [1]"),
@@ -74,7 +74,7 @@ MISTAKES = [
     (
         '[clips.Boxing]\nfil = "Walk_01.bvh"',
         2,
-        "unknown key `fil`; did you mean `file`?; expected one of file, frames, mirror",
+        "unknown key `fil`; expected one of file, frames, mirror; did you mean `file`?",
     ),
     ('\n[clips.Boxing]\nfile = "raw/Box.bvh"', 3, "there is no clip DIR/raw/Box.bvh"),
     ("\n[clips.Boxing]\nmirror = true", 2, "there is no clip DIR/Boxing.bvh"),
@@ -93,7 +93,7 @@ MISTAKES = [
     ('[[graph]]\nname = ""', 2, "a graph must have a name"),
     ("[[graph]]\nname = 3", 2, "name must be a text, found 3"),
     (graph("", "[[graph]]", 'name = "Full-Body"'), 4, "two graphs are named `Full-Body`"),
-    (graph("windows = 20"), 3, f"unknown key `windows`; did you mean `window`?; expected one of {GRAPH_KEYS}"),
+    (graph("windows = 20"), 3, f"unknown key `windows`; expected one of {GRAPH_KEYS}; did you mean `window`?"),
     (graph("window = 1"), 3, "window must be a number of frames from 2 to 1000, found 1"),
     (graph("window = 20.0"), 3, "window must be a number of frames from 2 to 1000, found 20.0"),
     (graph("window = true"), 3, "window must be a number of frames from 2 to 1000, found True"),
@@ -168,7 +168,7 @@ MISTAKES = [
     (
         rules("forbidden = []"),
         2,
-        "unknown key `forbidden`; did you mean `forbid`?; expected one of graph, forbid, allow",
+        "unknown key `forbidden`; expected one of graph, forbid, allow; did you mean `forbid`?",
     ),
     (rules('graph = "Full"'), 2, "graph must be one of Full-Body, found 'Full'"),
     (
@@ -184,8 +184,29 @@ MISTAKES = [
     ),
     (
         '[groups]\ngo = ["Walk_01", "Wlk_02"]\n' + rules('allow = [["go", "Idle_01"]]'),
-        4,
-        "`Wlk_02` is no motion or tag of `Full-Body` and no group; did you mean `Walk_02`?",
+        2,
+        "the group `go` names `Wlk_02`, which is no motion, tag or group; did you mean `Walk_02`?",
+    ),
+    (
+        '[groups]\ngo = ["run"]\n[tags.Full-Body]\nWalk_01 = ["WALK", "RUN"]',
+        2,
+        "the group `go` names `run`, which is no motion, tag or group; did you mean `RUN`?",
+    ),
+    (
+        '[groups]\nwalks = ["Walk_01"]\nall = ["Idle_01", "walk"]',
+        3,
+        "the group `all` names `walk`, which is no motion, tag or group; did you mean `walks`?",
+    ),
+    ('[groups]\na = ["Idle_01"]\nb = ["c"]\nc = ["a", "b"]', 3, "the group `b` is a member of itself"),
+    (
+        '[groups]\nWalk_01 = ["Idle_01"]',
+        2,
+        "the group `Walk_01` is spelt like a motion; a name can mean one thing only",
+    ),
+    (
+        '[groups]\nWALK = ["Idle_01"]\n[tags.Full-Body]\nIdle_01 = ["WALK"]',
+        2,
+        "the group `WALK` is spelt like a tag; a name can mean one thing only",
     ),
 ]
 

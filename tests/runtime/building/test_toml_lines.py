@@ -10,7 +10,9 @@ TEXT = """\
 # a comment = 1
 [library]
 clips = [
-  "a.bvh",
+  ["a.bvh", "b"], # ]
+  "x = 3",
+  [ "]" ]
 ]
 "frame rate" = 30
 
@@ -26,6 +28,12 @@ window=20
 "走路" = ["Y"]
 [clips]
 Boxing.frames = [1, 2]
+note = \"\"\"
+[graph]
+"quoted" = 4 \\\\\"\"\"
+told = '''
+  up = "z'''
+last = { a = [ 1 ] }
 """
 
 
@@ -43,19 +51,22 @@ def paths(value: Any, at: tuple[str | int, ...] = ()) -> Iterator[tuple[str | in
     [
         (("library",), 2),
         (("library", "clips"), 3),
-        (("library", "frame rate"), 6),
-        (("graph", 0), 8),
-        (("graph", 0, "name"), 9),
-        (("graph", 0, "weights"), 10),
-        (("graph", 0, "weights", "Hand_L"), 11),
-        (("graph", 1), 12),
-        (("graph", 1, "name"), 13),
-        (("graph", 1, "window"), 14),
-        (("tags", "Full-Body"), 15),
-        (("tags", "Full-Body", "hand on hip"), 16),
-        (("tags", "Full-Body", "走路"), 17),
-        (("clips",), 18),
-        (("clips", "Boxing", "frames"), 19),
+        (("library", "frame rate"), 8),
+        (("graph", 0), 10),
+        (("graph", 0, "name"), 11),
+        (("graph", 0, "weights"), 12),
+        (("graph", 0, "weights", "Hand_L"), 13),
+        (("graph", 1), 14),
+        (("graph", 1, "name"), 15),
+        (("graph", 1, "window"), 16),
+        (("tags", "Full-Body"), 17),
+        (("tags", "Full-Body", "hand on hip"), 18),
+        (("tags", "Full-Body", "走路"), 19),
+        (("clips",), 20),
+        (("clips", "Boxing", "frames"), 21),
+        (("clips", "note"), 22),
+        (("clips", "told"), 25),
+        (("clips", "last"), 27),
     ],
 )
 def test_every_key_is_found_on_its_line(path: tuple[str | int, ...], line: int) -> None:
