@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import tomllib
 from pathlib import Path
 
 SETTINGS = "mlmg.toml"
@@ -23,7 +22,7 @@ def find_library(script: str | Path, option: str | Path | None = None) -> Path |
     Raises
     ------
     mlmg_runtime.errors.ConfigurationError
-        If that `mlmg.toml` is not TOML, or its `library` is not text.
+        If that `mlmg.toml` is not TOML, holds another key, or its `library` is not text.
     OSError
         If it cannot be read.
     """
@@ -40,18 +39,13 @@ def find_library(script: str | Path, option: str | Path | None = None) -> Path |
 
 def _library_of(settings: Path) -> Path | None:
     """Return the library that a settings file names, if it names one."""
-    try:
-        named = tomllib.loads(settings.read_text(encoding="utf-8-sig")).get("library")
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise _wrong(settings, str(error)) from error
+    from mlmg_runtime.building.toml_files import read_toml
+
+    file = read_toml(settings)
+    file.check_keys(file.document, (), ("library",))
+    named = file.document.get("library")
     if named is None:
         return None
     if not isinstance(named, str) or not named:
-        raise _wrong(settings, f"`library` should be the path of a library, as text; found {named!r}")
+        file.fail(("library",), f"`library` should be the path of a library, as text; found {named!r}")
     return settings.parent / named
-
-
-def _wrong(settings: Path, message: str) -> Exception:
-    from mlmg_runtime.errors import ConfigurationError
-
-    return ConfigurationError(settings, None, message)

@@ -49,8 +49,20 @@ def test_settings_need_not_name_a_library(project: Path) -> None:
     assert find_library(project / "a.ms") is None
 
 
-@pytest.mark.parametrize("text", ["library = 3", 'library = ""', "library = ", "library = ["])
-def test_settings_that_are_wrong_are_an_error_with_the_file(project: Path, text: str) -> None:
+@pytest.mark.parametrize(
+    ("text", "line", "message"),
+    [
+        ("library = 3", 1, "`library` should be the path of a library, as text; found 3"),
+        ('\nlibrary = ""', 2, "`library` should be the path of a library, as text; found ''"),
+        ("\nlibrary = ", 2, "not valid TOML: Invalid value"),
+        ('libary = "x"', 1, "unknown key `libary`; expected library; did you mean `library`?"),
+        ('library = "x"\n[view]\nup = "z"', 2, "unknown key `view`; expected library"),
+    ],
+)
+def test_settings_that_are_wrong_are_one_error_with_file_and_line(
+    project: Path, text: str, line: int, message: str
+) -> None:
     (project / "mlmg.toml").write_text(text, encoding="utf-8")
-    with pytest.raises(ConfigurationError, match=r"mlmg\.toml: "):
+    with pytest.raises(ConfigurationError) as caught:
         find_library(project / "a.ms")
+    assert str(caught.value) == f"{project / 'mlmg.toml'}:{line}: {message}"
