@@ -8,7 +8,7 @@ from mlmg_lang.diagnostics import Fix
 from mlmg_lang.parsing.amounts import SECONDS, UNITS, spelled
 from mlmg_lang.parsing.line_parser import Stuck
 from mlmg_lang.parsing.mistakes.mistake import Mistake, across, found, mistake, replaced
-from mlmg_lang.parsing.tokens import NUMBERS, OPENS_STATEMENT, Token
+from mlmg_lang.parsing.tokens import NAMES, NUMBERS, OPENS_STATEMENT, Token
 from mlmg_lang.source import Span
 from mlmg_lang.spelling import nearest
 
@@ -123,12 +123,25 @@ def for_missing(stuck: Stuck) -> Mistake | None:
 
 def for_too_much(stuck: Stuck) -> Mistake | None:
     """`wait for 10 sec`."""
-    token, after = stuck.token(0), stuck.token(1)
-    if stuck.type(-1) != "WAIT" or token is None or token.type != "FOR":
+    wait, token, after = stuck.token(-1), stuck.token(0), stuck.token(1)
+    if wait is None or wait.type != "WAIT" or token is None or token.type != "FOR":
         return None
-    gap = token.span if after is None else Span(token.span.start, after.span.start)
-    return mistake("MS010", "`wait` takes its duration without `for`", token.span, "write `wait 10 sec`",
-                   Fix(gap, "", safe=True), meant=replaced(stuck, stuck.at))  # fmt: skip
+    if after is None:
+        message = "`wait` needs a duration after it, found the end of the statement"
+        return mistake("MS017", message, across(wait, token), "write how long, as in `wait 10 sec`")
+    fix = Fix(Span(token.span.start, after.span.start), "", safe=True)
+    advice = _waited(*stuck.tokens[stuck.at + 1 :])
+    return mistake("MS010", "`wait` takes its duration without `for`", token.span, advice, fix,
+                   meant=replaced(stuck, stuck.at))  # fmt: skip
+
+
+def _waited(amount: Token, unit: Token | None = None, *rest: Token) -> str:
+    """Return what to write instead of `wait for` and some tokens, as far as it is clear."""
+    if rest or amount.type not in NAMES | NUMBERS:
+        return "take `for` out"
+    if amount.type in NAMES:
+        return f"write `wait {amount.text}`"
+    return f"write `wait {amount.text} {'sec' if unit is None else unit.text}`"
 
 
 def amount_missing(stuck: Stuck) -> Mistake | None:
