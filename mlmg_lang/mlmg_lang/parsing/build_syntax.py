@@ -25,7 +25,7 @@ def name_from_token(token: Token) -> syntax.Name:
     """Return the name that a token spells, be it sound or not."""
     if token.type not in ("STRING", "UNCLOSED"):
         return syntax.Name(token.text, False, is_name(token.text), token.span)
-    closed = token.type == "STRING"
+    closed = re.fullmatch(r'"(?:[^"\\]|\\.)*"', token.text) is not None
     inside = token.text[1 : -1 if closed else None]
     sound = closed and inside.strip() != "" and not bad_escapes(inside)
     return syntax.Name(re.sub(r"\\(.)", r"\1", inside), True, sound, token.span)

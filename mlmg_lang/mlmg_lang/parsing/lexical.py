@@ -2,14 +2,20 @@
 
 from __future__ import annotations
 
+import re
 import unicodedata
 from collections.abc import Iterable, Iterator
+from typing import Final
 
 from mlmg_grammar import is_name, reserved_words
 from mlmg_lang.diagnostics import Diagnostic, Fix
 from mlmg_lang.parsing.build_syntax import bad_escapes, motion_script
 from mlmg_lang.parsing.tokens import Token
+from mlmg_lang.source import Span
 from mlmg_lang.spelling import listed
+
+_ENDS_NAME: Final = re.compile(r"\s*#|\s+(?:with|and|or|for|once)(?!\S)")
+"""What stands rather behind a name whose closing quote was forgotten than in it."""
 
 
 def check_tokens(tokens: Iterable[Token]) -> Iterator[Diagnostic]:
@@ -25,8 +31,11 @@ def check_tokens(tokens: Iterable[Token]) -> Iterator[Diagnostic]:
 
 def _unclosed(token: Token) -> Diagnostic:
     message = 'this name in quotes has no closing `"`'
-    fixes = () if token.text.endswith("\\") else (Fix(token.span, f'{token.text.rstrip()}"', safe=False),)
-    return Diagnostic("MS002", message, token.span, help='write `"` where the name ends', fixes=fixes)
+    name = _ENDS_NAME.split(token.text, maxsplit=1)[0].rstrip()
+    if name == '"' or name.endswith("\\"):
+        return Diagnostic("MS002", message, token.span, help='write `"` where the name ends')
+    fix = Fix(Span(token.span.start, token.span.start + len(name)), f'{name}"', safe=False)
+    return Diagnostic("MS002", message, token.span, f'write `{name}"`', fixes=(fix,))
 
 
 def _quoted(token: Token) -> Iterator[Diagnostic]:
