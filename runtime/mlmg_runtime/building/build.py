@@ -16,6 +16,7 @@ from mlmg_runtime.building.candidates import Candidates, find_candidates
 from mlmg_runtime.building.combine import graph_joints, graph_parents, overall_motion_similarity
 from mlmg_runtime.building.configuration import GraphConfiguration, LibraryConfiguration, check_start
 from mlmg_runtime.building.connect import Edges, Positions, bridges
+from mlmg_runtime.building.hurry import hurry
 from mlmg_runtime.building.load_clips import Clips, load_clips
 from mlmg_runtime.built_library import BuiltLibrary, GraphReport
 from mlmg_runtime.motion_graph import TRANSITION, UNREACHABLE, MotionGraph
@@ -24,6 +25,9 @@ from mlmg_runtime.skeleton import Skeleton, world_positions
 
 # Windows this alike, root mean square over the joints, blend without being seen; a share of the body's height.
 SMOOTH_SHARE = 0.02
+# A bridge may lead a joint by steps this many times as long as its longest in the two clips. Blends of rotations make
+# steps up to a tenth longer than blends of positions tell; what is shown is not to go half as fast again.
+LARGEST_HURRY = 1.3
 
 Progress = Callable[[str, int, int], None]
 
@@ -119,8 +123,11 @@ def _build_graph(
     sigma = _sigma(settings, results, points_in_window * (SMOOTH_SHARE * stature) ** 2)
     edges = _edges(settings, motions, pairs, results)
     positions = Positions(n_frames)
-    is_auto = settings.threshold.kind == "auto"
-    kept = edges.where(bridges(positions, edges, sigma, settings.window) if is_auto else edges.distance <= sigma)
+    if settings.threshold.kind == "auto":
+        moves = hurry([points[motion][:, list(joints)] for motion in motions], weights, settings.window, settings.blend)
+        kept = edges.where(bridges(positions, edges, sigma, settings.window, lambda e: moves.of(e) > LARGEST_HURRY))
+    else:
+        kept = edges.where(edges.distance <= sigma)
     component = positions.component(kept)
     kept = kept.where(positions.inside(kept, component))
     graph = MotionGraph(

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import NamedTuple, TypeAlias
+from collections.abc import Callable, Iterator
+from typing import NamedTuple
 
 import numpy as np
 
@@ -11,8 +11,6 @@ from mlmg_runtime.arrays import BoolArray, FloatArray, IntArray
 
 # Windows up to five times as far apart as smooth ones (root mean square) make a bridge that is seen, but no stumble.
 USUAL_BRIDGE = 25.0
-
-Connected: TypeAlias = Callable[[BoolArray], bool]
 
 
 class Edges(NamedTuple):
@@ -24,7 +22,7 @@ class Edges(NamedTuple):
     dst_frame: IntArray
     distance: FloatArray
 
-    def where(self, keep: BoolArray) -> Edges:
+    def where(self, keep: BoolArray | IntArray) -> Edges:
         """Return some of the transitions."""
         return Edges(
             self.src_motion[keep],
@@ -84,20 +82,25 @@ class Positions:
         return np.asarray(component[self.source(edges)] & lands & component[target])
 
 
-def bridges(positions: Positions, edges: Edges, sigma: float, window: int) -> BoolArray:
+def bridges(
+    positions: Positions, edges: Edges, sigma: float, window: int, hurries: Callable[[Edges], BoolArray]
+) -> BoolArray:
     """Return which transitions to keep so that as many motions as possible can be reached from each other.
 
-    All whose distance is at most `sigma` are kept; if the motions hang together by these, no other. Else nothing is
-    kept that is dearer than a usual bridge, or than it must be for the motions to hang together; and of what is left
-    only the best: of transitions between the same two motions that leave within a window of each other, one; and any
-    other only if the motions fall apart without it. (The fewest bridges that connect all would do for a graph, but not
-    for a person: on real clips a walk would begin 7 to 20 seconds after it was asked for, with these 4 to 5.)
+    All whose distance is at most `sigma` are kept; if the motions hang together by these, no other. Else the best of
+    the others are: of transitions between the same two motions that leave within a window of each other, one; none
+    that hurries, or is dearer than a usual bridge, unless the motions fall apart without. (The fewest bridges that
+    connect all would do for a graph, but not for a person: on real clips a walk would begin 7 to 20 seconds after it
+    was asked for, with these 4 to 5.)
+
+    Parameters
+    ----------
+    hurries : tells of transitions whether they hurry a joint; asked of those alone that would be kept.
 
     Returns
     -------
     array, shape (n_edges,), bool.
     """
-    order = np.argsort(edges.distance, kind="stable")
     wanted = positions.motions_in(positions.component(edges))
 
     def connected(keep: BoolArray) -> bool:
@@ -107,16 +110,55 @@ def bridges(positions: Positions, edges: Edges, sigma: float, window: int) -> Bo
     smooth = edges.distance <= sigma
     if connected(smooth):
         return smooth
-    keep = _least_connecting(edges, order, connected) | (edges.distance <= USUAL_BRIDGE * sigma)
-    best = smooth | _best_of_each_window(edges, order[keep[order]], window)
-    dearest_first = order[::-1]
-    rest = dearest_first[(keep & ~best)[dearest_first]]
-    return _give_up(edges, keep, rest.tolist(), connected)
+    for bridging in _ever_more_bridges(edges, sigma, window, hurries):
+        if connected(smooth | bridging):
+            break
+    keep = smooth | bridging
+    keep &= edges.distance <= max(USUAL_BRIDGE * sigma, _dearest_needed(edges, keep, connected))
+    usual = keep & (edges.distance <= USUAL_BRIDGE * sigma)
+    pair = _pairs(edges)
+    dear = np.flatnonzero(keep & ~usual & np.isin(pair, pair[usual]))
+    return _give_up(keep, dear[np.argsort(-edges.distance[dear], kind="stable")].tolist(), connected)
 
 
-def _best_of_each_window(edges: Edges, best_first: IntArray, window: int) -> BoolArray:
-    """Return which transitions are the best between their motions among those that leave less than a window apart."""
-    keep = np.zeros(len(edges.distance), dtype=bool)
+def _ever_more_bridges(
+    edges: Edges, sigma: float, window: int, hurries: Callable[[Edges], BoolArray]
+) -> Iterator[BoolArray]:
+    """Yield what might bridge: the best of each window up to ever larger distances, then with those that hurry."""
+    order = np.argsort(edges.distance, kind="stable")
+    limit = USUAL_BRIDGE * sigma
+    while True:
+        near = order[edges.distance[order] <= limit]
+        yield _best_of_each_window(edges, near, window, hurries)
+        if len(near) == len(order):
+            break
+        limit = max(2.0 * limit, float(edges.distance[order[len(near)]]))
+    yield _best_of_each_window(edges, order, window, lambda some: np.zeros(len(some.distance), dtype=bool))
+    yield np.ones(len(order), dtype=bool)
+
+
+def _best_of_each_window(
+    edges: Edges, best_first: IntArray, window: int, hurries: Callable[[Edges], BoolArray]
+) -> BoolArray:
+    """Return which transitions are the best between their motions among those that leave less than a window apart.
+
+    Those that hurry do not count; as it takes long to tell, only of those that seem the best it is asked.
+    """
+    best, asked, out = np.zeros((3, len(edges.distance)), dtype=bool)
+    pair = _pairs(edges)
+    again = best_first
+    while len(again):
+        best[again] = False
+        best[_first_of_each_window(edges, again[~out[again]], window)] = True
+        fresh = np.flatnonzero(best & ~asked)
+        asked[fresh] = True
+        out[fresh] = hurries(edges.where(fresh))
+        again = best_first[np.isin(pair[best_first], pair[fresh[out[fresh]]])]
+    return best
+
+
+def _first_of_each_window(edges: Edges, best_first: IntArray, window: int) -> list[int]:
+    first: list[int] = []
     departures: dict[tuple[int, int], list[int]] = {}
     columns = (edges.src_motion, edges.dst_motion, edges.src_frame)
     for number, source, target, frame in zip(
@@ -125,30 +167,35 @@ def _best_of_each_window(edges: Edges, best_first: IntArray, window: int) -> Boo
         taken = departures.setdefault((source, target), [])
         if all(abs(frame - other) >= window for other in taken):
             taken.append(frame)
-            keep[number] = True
-    return keep
+            first.append(number)
+    return first
 
 
-def _least_connecting(edges: Edges, order: IntArray, connected: Connected) -> BoolArray:
-    """Return the transitions up to the smallest distance at which all hang together."""
-    values = edges.distance[order]
+def _dearest_needed(edges: Edges, keep: BoolArray, connected: Callable[[BoolArray], bool]) -> float:
+    """Return the smallest distance at which all hang together by some transitions."""
+    values = np.sort(edges.distance[keep])
     low, high = 0, len(values) - 1
     while low < high:
         middle = (low + high) // 2
-        if connected(edges.distance <= values[middle]):
+        if connected(keep & (edges.distance <= values[middle])):
             high = middle
         else:
             low = middle + 1
-    return np.asarray(edges.distance <= values[low])
+    return float(values[low])
 
 
-def _give_up(edges: Edges, keep: BoolArray, dear: list[int], connected: Connected) -> BoolArray:
+def _pairs(edges: Edges) -> IntArray:
+    """Return a number for the motion that is left and the motion that is entered by each transition."""
+    return np.asarray(edges.src_motion * (edges.dst_motion.max(initial=0) + 1) + edges.dst_motion)
+
+
+def _give_up(keep: BoolArray, dear: list[int], connected: Callable[[BoolArray], bool]) -> BoolArray:
     """Return `keep` less all of the transitions `dear`, dearest first, that are not needed.
 
     Runs of them are tried at once and halved where one is needed: what can be given up together can be given up one
     by one.
     """
-    runs = [dear]
+    runs = [dear] if dear else []
     while runs:
         run = runs.pop()
         without = keep.copy()

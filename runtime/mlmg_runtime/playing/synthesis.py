@@ -9,24 +9,12 @@ import numpy as np
 
 from mlmg_runtime import rotations
 from mlmg_runtime.arrays import FloatArray, IntArray
+from mlmg_runtime.blending import WEIGHTS
 from mlmg_runtime.library import Library
 from mlmg_runtime.motion_graph import MotionGraph, Position
 from mlmg_runtime.playing.timeline import Blend, Clip, Segment, Timeline
 from mlmg_runtime.point_cloud import GroundTransform, best_fit
 from mlmg_runtime.skeleton import Poses, world_positions
-
-
-def c1_weight(share: FloatArray) -> FloatArray:
-    """Return the weight of the motion that is left, `share` (0 to 1) of the way into a transition: C1-smooth [K02]."""
-    return np.asarray(2.0 * share**3 - 3.0 * share**2 + 1.0)
-
-
-def linear_weight(share: FloatArray) -> FloatArray:
-    """Return the weight of the motion that is left, `share` (0 to 1) of the way into a transition: linear [MLMG]."""
-    return np.asarray(1.0 - share)
-
-
-WEIGHTS: Mapping[str, Callable[[FloatArray], FloatArray]] = {"c1": c1_weight, "linear": linear_weight}
 
 
 @dataclass(frozen=True, slots=True, eq=False)

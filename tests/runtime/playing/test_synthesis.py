@@ -9,10 +9,11 @@ from hypothesis import strategies as st
 
 from mlmg_runtime import rotations
 from mlmg_runtime.arrays import FloatArray
+from mlmg_runtime.blending import c1_weight, linear_weight
 from mlmg_runtime.library import Library
 from mlmg_runtime.motion_graph import MotionGraph, Position
 from mlmg_runtime.playing.performer import Performer
-from mlmg_runtime.playing.synthesis import c1_weight, linear_weight, synthesize
+from mlmg_runtime.playing.synthesis import synthesize
 from mlmg_runtime.playing.timeline import Blend, Clip, Segment, Timeline
 from mlmg_runtime.point_cloud import best_fit
 from mlmg_runtime.skeleton import Poses, world_positions
