@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from mlmg_lang.diagnostics import Diagnostic, Fix
@@ -11,7 +11,7 @@ from mlmg_lang.parsing.case import is_shouted, wrong_case
 from mlmg_lang.parsing.lexical import script_name
 from mlmg_lang.parsing.structure import SUB, group_of, is_sub
 from mlmg_lang.planning.names import Names
-from mlmg_lang.spelling import joined, listed, nearest, normal
+from mlmg_lang.spelling import listed, nearest, normal
 
 _MAX_LISTED = 8
 """The most names that a message lists when none is like the one written."""
@@ -45,10 +45,10 @@ class Unbound:
 
 def unbound(motion: syntax.Motion, scope: Scope) -> Iterator[Unbound]:
     """Yield the names of an expression that cannot be played, in the order of the text."""
-    for node in _parts(motion, scope):
+    for node, on in _parts(motion, scope):
         match node:
             case syntax.Reference(name):
-                yield from _motion_name(name, scope)
+                yield from _motion_name(name, scope, on)
             case syntax.Qualified():
                 yield from _qualified(node, scope)
             case syntax.Call(name):
@@ -87,26 +87,42 @@ def graph_name(name: syntax.Name, scope: Scope) -> Iterator[Unbound]:
         yield Unbound(_unknown_graph(name, scope.names))
 
 
-def _parts(motion: syntax.Motion, scope: Scope) -> Iterator[syntax.Motion]:
-    """Yield the named parts of an expression; what stands in a part that is reported whole is left out."""
-    waiting: list[syntax.Motion] = [motion]
+def _parts(motion: syntax.Motion, scope: Scope) -> Iterator[tuple[syntax.Motion, tuple[str, ...]]]:
+    """Yield the named parts of an expression, each with the graphs that it is meant for.
+
+    What stands in a part that is reported whole is left out.
+    """
+    names = scope.names
+    waiting: list[tuple[syntax.Motion, tuple[str, ...]]] = [(motion, names.graphs)]
     while waiting:
-        part = waiting.pop()
+        part, on = waiting.pop()
         match part:
-            case syntax.With(operands) | syntax.Or(operands) | syntax.And(operands):
-                waiting.extend(reversed(operands))
+            case syntax.With(operands):
+                lower = tuple(graph for graph in on if graph != names.root) or on
+                waiting.extend((operand, lower) for operand in reversed(operands[1:]))
+                waiting.append((operands[0], on))
+            case syntax.Or(operands) | syntax.And(operands):
+                waiting.extend((operand, on) for operand in reversed(operands))
             case syntax.Not(operand):
-                waiting.append(operand)
+                waiting.append((operand, on))
             case syntax.Group(inner):
-                waiting.append(inner)
+                waiting.append((inner, on))
             case syntax.Call(name):
-                yield part
+                yield part, on
                 inside = None if scope.defines(name) else group_of(part)
-                waiting.extend([inside] if inside is not None else [])
+                waiting.extend([(inside, _meant(name, names))] if inside is not None else [])
             case _:
-                yield part
+                yield part, on
                 if isinstance(part, syntax.Qualified) and isinstance(part.motion, syntax.Call):
-                    waiting.append(part.motion)
+                    waiting.append((part.motion, on))
+
+
+def _meant(graph: syntax.Name, names: Names) -> tuple[str, ...]:
+    """Return the graphs that a graph's name, or what stands for one, can mean."""
+    if is_sub(graph):
+        return names.below((names.root,))
+    meant = names.graph(graph.text)
+    return names.graphs if meant is None else (meant,)
 
 
 def _qualified(node: syntax.Qualified, scope: Scope) -> Iterator[Unbound]:
@@ -117,7 +133,7 @@ def _qualified(node: syntax.Qualified, scope: Scope) -> Iterator[Unbound]:
         yield from wrong
         return
     name = node.motion.name
-    inner = list(_motion_name(name, scope, on=names.graph(graph.text)))
+    inner = list(_motion_name(name, scope, _meant(graph, names)))
     if wrong and names.graph(name.text) is not None and names.places(graph.text):
         yield Unbound(_swapped(node, names))
     elif wrong and is_shouted(graph):
@@ -136,8 +152,8 @@ def _called(node: syntax.Call, name: syntax.Name, scope: Scope) -> Iterator[Unbo
         yield from graph_name(name, scope)
 
 
-def _motion_name(name: syntax.Name, scope: Scope, on: str | None = None) -> Iterator[Unbound]:
-    """Yield a name that should be a motion's or a tag's, if it is not; `on`: the graph written before it."""
+def _motion_name(name: syntax.Name, scope: Scope, on: Sequence[str]) -> Iterator[Unbound]:
+    """Yield a name that should be a motion's or a tag's, if it is not; `on`: the graphs that it is meant for."""
     if scope.defines(name):
         yield Unbound(None)
         return
@@ -156,29 +172,33 @@ def _motion_name(name: syntax.Name, scope: Scope, on: str | None = None) -> Iter
 # --- what to say -----------------------------------------------------------------------------------------
 
 
-def _unknown(name: syntax.Name, names: Names, on: str | None) -> Diagnostic:
+def _unknown(name: syntax.Name, names: Names, on: Sequence[str]) -> Diagnostic:
     message = f"no tag or motion `{name.text}` in this library"
-    near = nearest(name.text, names.spellings_on(on)) if on is not None else ()
+    near = nearest(name.text, (word for graph in on for word in names.spellings_on(graph)))
     near = near or nearest(name.text, names.spellings())
     if not near:
         near_graph = nearest(name.text, names.graphs, limit=1)
-        advice = f"there is a graph `{near_graph[0]}`" if near_graph else _all_names(names)
+        advice = f"there is a graph `{near_graph[0]}`" if near_graph else _all_names(names, on)
         return Diagnostic("MS021", message, name.span, advice)
-    advice = joined(f"on {_place(word, names, on)} there is `{word}`" for word in near)
     fixes = tuple(Fix(name.span, script_name(word), safe=False) for word in near)
-    return Diagnostic("MS021", message, name.span, advice, fixes=fixes)
+    return Diagnostic("MS021", message, name.span, _where(near, names, on), fixes=fixes)
 
 
-def _place(word: str, names: Names, on: str | None) -> str:
-    """Return a graph on which there is a name: the one asked for, if it is there."""
-    places = names.places(word)
-    return on if on in places and on is not None else places[0]
+def _where(words: Sequence[str], names: Names, on: Sequence[str]) -> str:
+    """Return on which graph there are some names, those of one graph together; of several, the first of `on`."""
+    by_graph: dict[str, list[str]] = {}
+    for word in words:
+        places = names.places(word)
+        place = next((graph for graph in on if graph in places), places[0])
+        by_graph.setdefault(place, []).append(word)
+    return "; ".join(f"on {graph} there is {listed(found, 'or')}" for graph, found in by_graph.items())
 
 
-def _all_names(names: Names) -> str | None:
+def _all_names(names: Names, on: Sequence[str]) -> str | None:
     """Return which tags there are, or motions if there are no tags, unless they are many."""
-    known = names.tags() or names.spellings()
-    return f"there are {listed(known)}" if 0 < len(known) <= _MAX_LISTED else None
+    known = names.tags(on) or tuple(dict.fromkeys(word for graph in on for word in names.spellings_on(graph)))
+    place = f"on {on[0]} " if len(on) == 1 < len(names.graphs) else ""
+    return f"{place}there are {listed(known)}" if 0 < len(known) <= _MAX_LISTED else None
 
 
 def _unknown_graph(name: syntax.Name, names: Names) -> Diagnostic:

@@ -144,9 +144,9 @@ class Names:
         entries = self._names[graph].exact.values()
         return tuple(entry.name for entry in sorted(entries, key=lambda entry: entry.kind is Kind.MOTION))
 
-    def tags(self) -> tuple[str, ...]:
-        """Return every tag, once."""
-        entries = (entry for index in self._names.values() for entry in index.exact.values())
+    def tags(self, graphs: Iterable[str]) -> tuple[str, ...]:
+        """Return every tag on some graphs, once."""
+        entries = (entry for graph in graphs for entry in self._names[graph].exact.values())
         return tuple(dict.fromkeys(entry.name for entry in entries if entry.kind is Kind.TAG))
 
     def spellings(self) -> tuple[str, ...]:
