@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import hashlib
 import os
 import sys
@@ -22,11 +23,11 @@ def demo_library(progress: Callable[[str, int, int], None] = lambda *_: None) ->
     Raises
     ------
     OSError
-        If the cache folder, named by the error, cannot be written; MLMG_CACHE names another.
+        If the cache folder cannot be used; the error names it, and MLMG_CACHE, which names it or may name another.
     """
     path = cache_folder() / f"demo-{_fingerprint()}.mlmg"
-    if not path.exists():
-        path.parent.mkdir(parents=True, exist_ok=True)
+    if not os.path.exists(path):
+        _make_room(path)
         _build(path, progress)
     return path
 
@@ -40,6 +41,24 @@ def cache_folder() -> Path:
     if sys.platform == "darwin":
         return Path.home() / "Library" / "Caches" / "mlmg"
     return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "mlmg"
+
+
+def _make_room(path: Path) -> None:
+    """Make the cache folder, and try whether a file can be written there, before the work that it is for."""
+    from mlmg_runtime.files import check_output
+
+    folder = path.parent
+    try:
+        if folder.exists() and not folder.is_dir():
+            raise NotADirectoryError(errno.ENOTDIR, os.strerror(errno.ENOTDIR))
+        folder.mkdir(parents=True, exist_ok=True)
+        check_output(path)
+    except OSError as error:
+        named = (
+            "because MLMG_CACHE says so" if os.environ.get("MLMG_CACHE") else "unless MLMG_CACHE names another folder"
+        )
+        why = f"{error.strerror}; the demo library is kept here {named}"
+        raise type(error)(error.errno, why, str(folder)) from None
 
 
 def _fingerprint() -> str:

@@ -182,3 +182,12 @@ def test_a_rate_that_is_no_number_is_wrong_usage(scene, capsys):
         compiled("-o", "out.bvh", "--fps", "abc")
     assert left.value.code == 2
     assert "expected a number of frames a second, found 'abc'" in capsys.readouterr().err
+
+
+def test_a_cache_that_cannot_be_used_is_one_line_that_names_it_and_its_variable(folder, monkeypatch, capsys):
+    (folder / "scene.ms").write_text("Idle_01 for 1 sec\n")
+    monkeypatch.setenv("MLMG_CACHE", "scene.ms")
+    assert mlmgc.main(["scene.ms", "-o", "out.bvh"]) == 2
+    assert capsys.readouterr().err == (
+        "mlmgc: error: scene.ms: Not a directory; the demo library is kept here because MLMG_CACHE says so\n"
+    )
