@@ -73,6 +73,7 @@ def _table() -> dict[str, Rule]:
         "MS044": Rule(error, "an unknown start motion"),
         "MS045": Rule(warning, "a duration of nothing"),
         "MS046": Rule(error, "an absurd duration"),
+        "MS047": Rule(hint, "a command that is left as soon as it is reached"),
         # the version
         "MS060": Rule(error, "a part of the language that is not played yet"),
     }

@@ -13,6 +13,7 @@ from mlmg_lang.parsing.syntax import Script
 from mlmg_lang.parsing.tokenize import tokenize
 from mlmg_lang.parsing.tokens import Token
 from mlmg_lang.planning.names import Names
+from mlmg_lang.planning.passing import left_at_once
 from mlmg_lang.planning.plan import plan
 from mlmg_lang.planning.resolve import resolve
 from mlmg_lang.planning.resolved import ResolvedPlan
@@ -62,9 +63,11 @@ def _against(analysis: Analysis, catalog: Catalog, start: str | None) -> Analysi
     source, names = analysis.source, Names(catalog)
     planned = plan(analysis.script, names, catalog.frame_rate, source)
     resolution = resolve(planned.plan, names, catalog, source, start)
-    diagnostics = _sorted((*analysis.diagnostics, *planned.diagnostics, *resolution.diagnostics))
-    resolved = None if has_errors(diagnostics) else resolution.plan
-    return replace(analysis, plan=planned.plan, resolved=resolved, diagnostics=diagnostics)
+    found = (*analysis.diagnostics, *planned.diagnostics, *resolution.diagnostics)
+    if has_errors(found):
+        return replace(analysis, plan=planned.plan, diagnostics=_sorted(found))
+    hints = tuple(left_at_once(resolution, names))
+    return replace(analysis, plan=planned.plan, resolved=resolution.plan, diagnostics=_sorted((*found, *hints)))
 
 
 def _sorted(diagnostics: tuple[Diagnostic, ...]) -> tuple[Diagnostic, ...]:

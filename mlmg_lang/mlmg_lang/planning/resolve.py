@@ -20,10 +20,16 @@ from mlmg_lang.spelling import listed, nearest, some
 
 @dataclass(frozen=True, slots=True)
 class Resolution:
-    """A resolved plan with what is wrong with the script as it would be played."""
+    """A resolved plan with what is wrong with the script as it would be played.
+
+    Attributes
+    ----------
+    states : what may be playing before each statement of the script, those with mistakes too, and after the last.
+    """
 
     plan: resolved.ResolvedPlan
     diagnostics: tuple[Diagnostic, ...]
+    states: tuple[flow.State, ...]
 
 
 def resolve(
@@ -39,7 +45,8 @@ def resolve(
     resolver = _Resolver(names, catalog, plan.statements, source, motion)
     statements = resolver.run()
     told = (diagnostic for _, diagnostic in sorted(resolver.told.items()))
-    return Resolution(resolved.ResolvedPlan(source, motion, statements), (*wrong, *told))
+    playable = resolved.ResolvedPlan(source, motion, statements)
+    return Resolution(playable, (*wrong, *told), tuple(resolver.states))
 
 
 def _start(

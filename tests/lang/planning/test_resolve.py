@@ -86,7 +86,7 @@ def test_a_part_is_led_by_what_an_earlier_command_left_running_above_it(catalog:
     assert codes("Hand d", library) == []
     assert codes("Top c\nHand d", library) == ["MS040"]
     assert codes("Top c\nend Top\nHand d", library) == []
-    assert codes("Top c\na\nHand d", library) == []
+    assert codes("Top c for 1 sec\na\nHand d", library) == []
 
 
 def test_the_start_can_stand_in_the_way(codes: Codes, reference: Any) -> None:
@@ -190,7 +190,7 @@ def test_what_plays_already_needs_no_way(reference: Any, codes: Codes) -> None:
 def test_an_end_gives_back_what_runs_and_warns_of_what_cannot_run(codes: Codes, reference: Any) -> None:
     assert codes("WALK with Upper-Body TALK\nend Upper-Body", reference) == []
     assert codes("WALK with Upper-Body TALK\nend Upper-Body\nend Upper-Body", reference) == ["MS043"]
-    assert codes("WALK with Upper-Body TALK\nWALK\nend Upper-Body", reference) == ["MS043"]
+    assert codes("WALK with Upper-Body TALK for 1 sec\nWALK\nend Upper-Body", reference) == ["MS043"]
     assert codes("Walk_01\nSWING_HAND\nend Upper-Body", reference) == ["MS043"]
     assert codes("Walk_01\nUpper-Body Walk_02\nend Upper-Body", reference) == []
     assert codes("Full-Body IDLE\nend Full-Body", reference) == ["MS042"]
@@ -324,12 +324,12 @@ def test_two_parts_that_ask_for_different_things_above_them_are_at_fault_togethe
 def test_a_part_that_runs_goes_on_from_its_own_motion_if_the_one_above_may_stay(catalog: Any, codes: Codes) -> None:
     on = {"Body": {"a": ()}, "Top": {"a": (), "t": (), "u": ()}}
     library = catalog(on, {"Top": "Body"}, start="a", cut=frozenset({("Top", "a", "u")}))
-    assert codes("a with Top t\na with Top u", library) == []
+    assert codes("a with Top t for 1 sec\na with Top u", library) == []
     assert codes("a with Top u", library) == ["MS041"]
 
 
 def test_a_part_that_is_led_to_the_motion_of_its_parent_does_not_run(codes: Codes, reference: Any) -> None:
-    script = "Talk_02 with Upper-Body Talk_01\nTalk_01 with Upper-Body Talk_01\nend Upper-Body"
+    script = "Talk_02 with Upper-Body Talk_01 for 1 sec\nTalk_01 with Upper-Body Talk_01\nend Upper-Body"
     assert codes(script, reference) == ["MS043"]
 
 
