@@ -68,15 +68,19 @@ def slow_hurry(library: Library, graph: MotionGraph, own: Position, above: Posit
 
 
 @settings(max_examples=25, deadline=None)
-@given(seed=st.integers(0, 2**32 - 1), name=st.sampled_from(["Upper-Body", "Left-Arm"]))
+@given(
+    seed=st.integers(0, 2**32 - 1),
+    name=st.sampled_from(["Upper-Body", "Left-Arm"]),
+    within=st.sampled_from([3, 12, 60]),
+)
 def test_a_part_is_let_go_as_soon_as_no_joint_need_hurry_or_when_they_do_least(
-    seed: int, name: str, small_library: Library
+    seed: int, name: str, within: int, small_library: Library
 ) -> None:
     graph = small_library.by_name[name]
     begin, own, above = future(small_library, graph, seed)
-    played = release(small_library, graph, iter(own), above, begin + WITHIN)
+    played = release(small_library, graph, iter(own), above, begin + within)
     hurries = {}
-    for time in range(begin, begin + WITHIN + 1):
+    for time in range(begin, begin + within + 1):
         at, window = place(own, time), [place(above, time + p) for p in range(graph.window)]
         if at is not None and None not in window and len({there.motion for there in window}) == 1:
             goes_on = all(b.frame == a.frame + 1 for a, b in pairwise(window))
