@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -73,6 +73,30 @@ class Story:
             for stretch in track.stretches
             if stretch.begin <= frame < stretch.end
         )
+
+    def within(self, frames: range) -> Story:
+        """Return what is told of some frames of the motion, which are then counted from 0."""
+
+        def at(frame: int) -> int:
+            return min(max(-((frames.start - frame) // frames.step), 0), len(frames))
+
+        commands = (
+            replace(command, begin=at(command.begin), arrive=at(command.arrive), end=at(command.end))
+            for command in self.commands
+            if command.begin < frames.stop and max(command.end, command.begin + 1) > frames.start
+        )
+        tracks = (
+            replace(
+                track,
+                stretches=tuple(
+                    replace(stretch, begin=at(stretch.begin), end=at(stretch.end))
+                    for stretch in track.stretches
+                    if at(stretch.begin) < at(stretch.end)
+                ),
+            )
+            for track in self.tracks
+        )
+        return replace(self, commands=tuple(commands), tracks=tuple(tracks))
 
 
 def is_report(content: object) -> bool:

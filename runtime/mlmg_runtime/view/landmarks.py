@@ -85,6 +85,7 @@ def _with_rigid_point(points: Points, joint: int, rotation: FloatArray, step: Fl
         parents=(*points.parents, joint),
         positions=np.concatenate((points.positions, new[:, None]), axis=1),
         lengths=np.append(points.lengths, length),
+        offsets=(*points.offsets, local),
     )
 
 

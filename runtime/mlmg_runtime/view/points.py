@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -25,32 +25,59 @@ class Points:
         is joint i as long as there are joints; the tips follow.
     positions : array, shape (n_frames, n_points, 3). In the world, y up.
     lengths : array, shape (n_points,). How far each point is from its parent, the median over the frames.
+    offsets : of the points after the joints: where each stands in the frame of its parent, a joint, shape (3,).
     """
 
     parents: tuple[int, ...]
     positions: FloatArray
     lengths: FloatArray
+    offsets: tuple[FloatArray, ...] = ()
+
+    def scaled(self, factor: float) -> Points:
+        """Return the points of a body `factor` times as large."""
+        return replace(
+            self,
+            positions=factor * self.positions,
+            lengths=factor * self.lengths,
+            offsets=tuple(factor * offset for offset in self.offsets),
+        )
+
+    def carried(self, travel: int, rotation: FloatArray, position: FloatArray) -> FloatArray:
+        """Return where all points are when the joints are elsewhere, shape (n_frames, n_points, 3).
+
+        Joints above the travel joint, which never move, are put where the travel joint is.
+
+        Parameters
+        ----------
+        rotation : array, shape (n_frames, n_joints, 4). In the world, unit quaternions.
+        position : array, shape (n_frames, n_joints, 3). In the world.
+        """
+        carriers = self.parents[len(self.parents) - len(self.offsets) :]
+        moved = [
+            position[:, joint] + rotations.rotate(rotation[:, joint], offset)
+            for joint, offset in zip(carriers, self.offsets, strict=True)
+        ]
+        positions = np.concatenate((position, *(point[:, None] for point in moved)), axis=1)
+        positions[:, :travel] = positions[:, travel : travel + 1]
+        return positions
 
 
 def points_from_transforms(skeleton: Skeleton, rotation: FloatArray, position: FloatArray) -> Points:
     """Return joints and tips of a skeleton.
 
     A joint that ends a limb gets a tip at its End Site; where that is missing or of no length, straight on.
-    Joints above the travel joint, which never move, are put where the travel joint is.
 
     Parameters
     ----------
-    rotation : array, shape (n_frames, n_joints, 4). In the world, unit quaternions.
-    position : array, shape (n_frames, n_joints, 3). In the world.
+    rotation, position : of the joints, as in `Points.carried`.
     """
     offsets = {joint: _tip_offset(skeleton, joint) for joint, children in enumerate(skeleton.children) if not children}
-    tips = [position[:, j] + rotations.rotate(rotation[:, j], offset) for j, offset in offsets.items()]
-    positions = np.concatenate((position, *(tip[:, None] for tip in tips)), axis=1)
-    positions[:, : skeleton.travel] = positions[:, skeleton.travel : skeleton.travel + 1]
     parents = (*skeleton.parents, *offsets)
+    points = Points(parents, position, np.zeros(len(parents)), tuple(offsets.values()))
+    positions = points.carried(skeleton.travel, rotation, position)
     steps = positions - positions[:, [max(parent, 0) for parent in parents]]
     lengths = np.median(np.linalg.norm(steps, axis=-1), axis=0)
-    return Points(parents, positions, lengths)
+    return replace(points, positions=positions, lengths=lengths)
 
 
 def _tip_offset(skeleton: Skeleton, joint: int) -> FloatArray:

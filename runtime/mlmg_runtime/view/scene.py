@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from mlmg_runtime.arrays import FloatArray
 from mlmg_runtime.bvh.document import Bvh
 from mlmg_runtime.clips import poses_from_bvh, skeleton_from_bvh
-from mlmg_runtime.skeleton import world_transforms
+from mlmg_runtime.skeleton import Skeleton, world_transforms
 from mlmg_runtime.view import landmarks
 from mlmg_runtime.view.anatomy import anatomy_from_points
 from mlmg_runtime.view.captions import Story
@@ -24,6 +24,8 @@ Float32Array: TypeAlias = NDArray[np.float32]
 _UNITS_M = (1.0, 0.01, 0.0254, 0.001, 0.1, 0.3048)
 _PLAUSIBLE_M = (1.0, 2.4)
 _GROUND_QUANTILE = 0.05
+_SAMPLED_FRAMES = 4000
+_FRAMES_AT_ONCE = 2000
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -34,6 +36,7 @@ class Scene:
     ----------
     name : what to call it, usually the file's stem.
     frame_time_s : seconds from one frame to the next.
+    frames : which frames of the file these are.
     positions : float32 array, shape (n_frames, n_points, 3), read-only. Joints, tips, heels, jaw.
     root : the point that carries the body through the world.
     bones : pairs of points, parent and child.
@@ -46,6 +49,7 @@ class Scene:
 
     name: str
     frame_time_s: float
+    frames: range
     positions: Float32Array
     root: int
     bones: tuple[tuple[int, int], ...]
@@ -60,6 +64,10 @@ class Scene:
         """Return the number of frames."""
         return int(self.positions.shape[0])
 
+    def time_s(self, frame: int) -> float:
+        """Return when a frame is shown, counted from the beginning of the file."""
+        return self.frame_time_s * (self.frames.start / self.frames.step + frame)
+
     @property
     def joints_of_graphs(self) -> dict[str, frozenset[int]]:
         """Return the joints that each graph moves, where the report says so."""
@@ -67,8 +75,13 @@ class Scene:
         return {graph: frozenset(index[n] for n in names if n in index) for graph, names in self.story.joints}
 
 
-def scene_from_bvh(bvh: Bvh, name: str, *, up: str = "y", story: Story | None = None) -> Scene:
+def scene_from_bvh(
+    bvh: Bvh, name: str, *, up: str = "y", story: Story | None = None, frames: range | None = None
+) -> Scene:
     """Return a motion ready to be drawn.
+
+    Of a long motion some thousand frames tell the size of the body and where the ground is, and positions are worked
+    out in pieces: beside the file's own numbers, a scene takes 12 bytes for each point and frame.
 
     Parameters
     ----------
@@ -76,13 +89,47 @@ def scene_from_bvh(bvh: Bvh, name: str, *, up: str = "y", story: Story | None = 
     name : what to call it.
     up : the vertical axis of the file, "y" or "z".
     story : what its report tells.
+    frames : those of the file's frames that the scene is to have, at least one; by default all.
     """
+    chosen = range(len(bvh.frames)) if frames is None else frames
+    body = _body(bvh, up)
+    return Scene(
+        name=name,
+        frame_time_s=chosen.step * bvh.frame_time_s,
+        frames=chosen,
+        positions=_positions(bvh, up, body, chosen),
+        root=body.skeleton.travel,
+        bones=body.bones,
+        capsules=body.capsules,
+        joint_names=body.skeleton.names,
+        heading_rad=body.heading_rad,
+        metres_per_unit=body.metres_per_unit,
+        story=(story or Story()).within(chosen),
+    )
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Body:
+    """What holds in every frame of a motion; `points` are those of some frames, in metres, `ground` is their height."""
+
+    skeleton: Skeleton
+    points: Points
+    bones: tuple[tuple[int, int], ...]
+    capsules: tuple[Capsule, ...]
+    ground: float
+    heading_rad: float
+    metres_per_unit: float
+
+
+def _body(bvh: Bvh, up: str) -> _Body:
+    """Return the body of a motion, as frames from all over it tell it."""
     skeleton = skeleton_from_bvh(bvh)
-    rotation, position = world_transforms(skeleton, poses_from_bvh(bvh, up))
+    sampled = range(0, len(bvh.frames), -(-len(bvh.frames) // _SAMPLED_FRAMES))
+    rotation, position = _transforms(bvh, up, skeleton, sampled)
     points = points_from_transforms(skeleton, rotation, position)
     anatomy = anatomy_from_points(points, skeleton.travel)
     metres = metres_per_unit(body_height(points, anatomy))
-    points = replace(points, positions=metres * points.positions, lengths=metres * points.lengths)
+    points = points.scaled(metres)
     anatomy = anatomy_from_points(points, skeleton.travel)
     forward = landmarks.facing(points, anatomy)
     n_tips_and_joints = len(points.parents)
@@ -94,18 +141,33 @@ def scene_from_bvh(bvh: Bvh, name: str, *, up: str = "y", story: Story | None = 
         points, heels = landmarks.with_heels(points, anatomy, rotation, 0.045 * size)
         points, jaw = landmarks.with_jaw(points, anatomy, rotation, forward=forward, share=chin, depth=0.036 * size)
     capsules = mannequin(points, anatomy, heels, jaw)
-    return Scene(
-        name=name,
-        frame_time_s=bvh.frame_time_s,
-        positions=_on_the_ground(points.positions, capsules),
-        root=skeleton.travel,
-        bones=_bones(points, skeleton.travel, n_tips_and_joints),
-        capsules=capsules,
-        joint_names=skeleton.names,
-        heading_rad=landmarks.heading_rad(forward),
-        metres_per_unit=metres,
-        story=story or Story(),
+    return _Body(
+        skeleton,
+        points,
+        _bones(points, skeleton.travel, n_tips_and_joints),
+        capsules,
+        _ground(points.positions, capsules),
+        landmarks.heading_rad(forward),
+        metres,
     )
+
+
+def _transforms(bvh: Bvh, up: str, skeleton: Skeleton, frames: range) -> tuple[FloatArray, FloatArray]:
+    """Return rotations and positions of the joints in the world in some frames, in the file's unit."""
+    part = replace(bvh, frames=bvh.frames[frames.start : frames.stop : frames.step])
+    return world_transforms(skeleton, poses_from_bvh(part, up))
+
+
+def _positions(bvh: Bvh, up: str, body: _Body, frames: range) -> Float32Array:
+    """Return where all points of a body are in some frames, in metres, with the ground at y = 0."""
+    result: Float32Array = np.empty((len(frames), len(body.points.parents), 3), dtype=np.float32)
+    for first in range(0, len(frames), _FRAMES_AT_ONCE):
+        piece = slice(first, first + _FRAMES_AT_ONCE)
+        rotation, position = _transforms(bvh, up, body.skeleton, frames[piece])
+        carried = body.points.carried(body.skeleton.travel, rotation, body.metres_per_unit * position)
+        result[piece] = carried - np.array([0.0, body.ground, 0.0])
+    result.setflags(write=False)
+    return result
 
 
 def metres_per_unit(height: float) -> float:
@@ -127,15 +189,12 @@ def ball_centres(positions: NDArray[np.floating], balls: list[Ball]) -> FloatArr
     return np.asarray(a + share * (b - a), dtype=np.float64)
 
 
-def _on_the_ground(positions: FloatArray, capsules: tuple[Capsule, ...]) -> Float32Array:
-    """Return positions moved up or down so that the body's lowest ball, bar outliers, is on y = 0."""
+def _ground(positions: FloatArray, capsules: tuple[Capsule, ...]) -> float:
+    """Return the height of the ground: that of the body's lowest ball, bar outliers."""
     balls = [ball for capsule in capsules for ball in (capsule.first, capsule.second)]
     radii = np.array([ball.radius for ball in balls])
     lowest = (ball_centres(positions, balls)[..., 1] - radii).min(axis=1) if balls else positions[..., 1].min(axis=1)
-    moved = positions - np.array([0.0, np.quantile(lowest, _GROUND_QUANTILE), 0.0])
-    result: Float32Array = moved.astype(np.float32)
-    result.setflags(write=False)
-    return result
+    return float(np.quantile(lowest, _GROUND_QUANTILE))
 
 
 def _bones(points: Points, travel: int, n_points: int) -> tuple[tuple[int, int], ...]:

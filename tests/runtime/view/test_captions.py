@@ -36,6 +36,31 @@ def test_each_graph_that_runs_says_what_it_plays(story, frame, expected):
     assert {graph: stretch.text for graph, stretch in story.playing_at(frame)} == expected
 
 
+def test_a_part_of_a_story_is_told_in_frames_of_its_own(story):
+    part = story.within(range(25, 45))
+    assert [(one.begin, one.arrive, one.end) for one in part.commands] == [(0, 0, 5), (5, 15, 20)]
+    full, upper = part.tracks
+    assert [(one.begin, one.end, one.text) for one in full.stretches] == [(0, 20, "Walk_01 ×1.1")]
+    assert [(one.begin, one.end) for one in upper.stretches] == [(5, 15), (15, 20)]
+    assert part.joints == story.joints
+
+
+@pytest.mark.parametrize("frames", [range(60), range(25, 45), range(0, 60, 7), range(3, 58, 4)])
+def test_a_part_of_a_story_says_of_each_frame_what_the_whole_does(story, frames):
+    part = story.within(frames)
+    for at, frame in enumerate(frames):
+        assert part.command_at(at).text == story.command_at(frame).text
+        playing = [
+            [(graph, one.text) for graph, one in told] for told in (part.playing_at(at), story.playing_at(frame))
+        ]
+        assert playing[0] == playing[1]
+
+
+def test_a_command_that_takes_no_time_is_told_where_it_stands(story):
+    assert [one.text for one in story.within(range(0, 5)).commands] == ["Idle_01", "WALK for 1 sec"]
+    assert [one.text for one in story.within(range(1, 5)).commands] == ["WALK for 1 sec"]
+
+
 def test_a_report_without_joints_names_none(report):
     assert story_from_report({**report, "joints": {}}).joints == ()
     assert story_from_report({key: report[key] for key in report if key != "joints"}).joints == ()

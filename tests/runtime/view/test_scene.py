@@ -1,7 +1,11 @@
+import tracemalloc
+
 import numpy as np
 import pytest
 
 from mlmg_runtime.bvh import Bvh
+from mlmg_runtime.view import scene as scenes
+from mlmg_runtime.view.captions import story_from_report
 from mlmg_runtime.view.mannequin import Ball
 from mlmg_runtime.view.scene import ball_centres, metres_per_unit, scene_from_bvh
 
@@ -69,3 +73,41 @@ def test_a_ball_stands_between_its_points():
 
 def test_one_frame_is_enough(person):
     assert scene_from_bvh(person(n_frames=1), "x").n_frames == 1
+
+
+def test_a_long_motion_worked_out_in_pieces_is_the_same(person, monkeypatch):
+    whole = scene_from_bvh(person(), "x")
+    monkeypatch.setattr(scenes, "_FRAMES_AT_ONCE", 7)
+    assert np.array_equal(scene_from_bvh(person(), "x").positions, whole.positions)
+
+
+def test_some_frames_of_a_motion_are_what_they_are_in_the_whole(person, report):
+    story = story_from_report(report)
+    whole = scene_from_bvh(person(), "x", story=story)
+    some = scene_from_bvh(person(), "x", story=story, frames=range(5, 50, 10))
+    assert np.array_equal(some.positions, whole.positions[5:50:10])
+    assert (some.n_frames, some.frame_time_s) == (5, pytest.approx(10 / 30))
+    assert [some.time_s(frame) for frame in (0, 4)] == pytest.approx([5 / 30, 45 / 30])
+    assert [command.text for command in some.story.commands] == ["WALK for 1 sec", "Sub TALK </script>"]
+    assert (some.capsules, some.heading_rad) == (whole.capsules, whole.heading_rad)
+
+
+def test_frames_from_all_over_a_long_motion_tell_the_ground_and_the_heading(person, monkeypatch):
+    whole = scene_from_bvh(person(), "x")
+    monkeypatch.setattr(scenes, "_SAMPLED_FRAMES", 10)
+    sampled = scene_from_bvh(person(), "x")
+    assert np.allclose(sampled.positions, whole.positions, atol=1e-5)
+    assert sampled.heading_rad == pytest.approx(whole.heading_rad)
+
+
+def test_the_memory_that_a_long_motion_takes_is_that_of_its_positions(person, monkeypatch):
+    monkeypatch.setattr(scenes, "_SAMPLED_FRAMES", 50)
+    monkeypatch.setattr(scenes, "_FRAMES_AT_ONCE", 50)
+    bvh = person(n_frames=5000)
+    tracemalloc.start()
+    try:
+        scene = scene_from_bvh(bvh, "x")
+        peak = tracemalloc.get_traced_memory()[1]
+    finally:
+        tracemalloc.stop()
+    assert peak < 1.5 * scene.positions.nbytes
