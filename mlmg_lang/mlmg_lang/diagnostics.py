@@ -8,7 +8,7 @@ from enum import StrEnum
 from types import MappingProxyType
 from typing import Final
 
-from mlmg_lang.source import Span
+from mlmg_lang.source import Source, Span
 
 
 class Severity(StrEnum):
@@ -90,24 +90,55 @@ class Fix:
     Attributes
     ----------
     safe : whether the edit is sure to say what the script was meant to say.
+    name : what the edit does, as an editor offers it; without one, `title` finds words for it.
     """
 
     span: Span
     replacement: str
     safe: bool
+    name: str = ""
 
     @property
     def applicability(self) -> str:
         """Return `safe` or `unsafe`."""
         return "safe" if self.safe else "unsafe"
 
+    @property
+    def title(self) -> str:
+        """Return what the edit does, in a few words for a menu."""
+        if self.name:
+            return self.name
+        if not self.replacement.strip():
+            return "take it out"
+        return f"{'add' if self.span.start == self.span.end else 'write'} `{self.replacement.strip()}`"
+
+
+@dataclass(frozen=True, slots=True)
+class Label:
+    """A few words about another place, drawn beside it in the same picture.
+
+    Attributes
+    ----------
+    source : the text that the place is in, where it is not the script's own.
+    """
+
+    span: Span
+    message: str
+    source: Source | None = None
+
 
 @dataclass(frozen=True, slots=True)
 class Note:
-    """Something else that one should know, perhaps about another place."""
+    """A sentence that one should know as well; with a place, that is drawn below the sentence.
+
+    Attributes
+    ----------
+    source : the text that the place is in, where it is not the script's own.
+    """
 
     message: str
     span: Span | None = None
+    source: Source | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -120,6 +151,7 @@ class Diagnostic:
     span : where; None if it is not about a place in the text.
     help : what to do about it.
     fixes : edits that would do it, the likeliest first.
+    labels : other places that have to do with it.
     """
 
     code: str
@@ -128,6 +160,7 @@ class Diagnostic:
     help: str | None = None
     notes: tuple[Note, ...] = ()
     fixes: tuple[Fix, ...] = ()
+    labels: tuple[Label, ...] = ()
 
     @property
     def severity(self) -> Severity:
