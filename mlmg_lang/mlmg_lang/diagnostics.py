@@ -8,7 +8,7 @@ from enum import StrEnum
 from types import MappingProxyType
 from typing import Final
 
-from mlmg_lang.source import Source, Span
+from mlmg_lang.source import Span
 
 
 class Severity(StrEnum):
@@ -115,30 +115,18 @@ class Fix:
 
 @dataclass(frozen=True, slots=True)
 class Label:
-    """A few words about another place, drawn beside it in the same picture.
-
-    Attributes
-    ----------
-    source : the text that the place is in, where it is not the script's own.
-    """
+    """A few words about another place, drawn beside it in the same picture."""
 
     span: Span
     message: str
-    source: Source | None = None
 
 
 @dataclass(frozen=True, slots=True)
 class Note:
-    """A sentence that one should know as well; with a place, that is drawn below the sentence.
-
-    Attributes
-    ----------
-    source : the text that the place is in, where it is not the script's own.
-    """
+    """A sentence that one should know as well; with a place, that is drawn below the sentence."""
 
     message: str
     span: Span | None = None
-    source: Source | None = None
 
 
 @dataclass(frozen=True, slots=True)
