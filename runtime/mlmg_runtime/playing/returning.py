@@ -1,54 +1,66 @@
-"""Leading a body part back to the very motion and frame that the graph above it plays (rule 2)."""
+"""Leading a body part back to the very motion and frame that the graph above it plays (rule 2).
+
+For one output frame after the other it is worked out at which frames of its graph the part can be, and at what cost;
+all frames of the graph at once, since where there are many transitions there are far too many paths to follow.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
-from heapq import heappop, heappush
-from math import ceil, floor, inf
-from typing import NamedTuple
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from typing import TypeAlias
 
+import numpy as np
+from numpy.typing import NDArray
+
+from mlmg_runtime.arrays import BoolArray, IntArray
 from mlmg_runtime.motion_graph import MotionGraph, Position, Transition
 from mlmg_runtime.playing.timeline import Clip, Segment, play_transition
 
-# A clip may be played this much faster or slower to meet the graph above.
-LARGEST_BEND = 0.2
+# A clip may be played a fifth faster or slower: whatever it then shows is made up of these output and source frames.
+_STEPS = ((1, 1), (5, 4), (5, 6))
+_N_BLANKS = max(n_source for _, n_source in _STEPS)
 
-
-class _Landing(NamedTuple):
-    """When a path can have ended: with its clips played fastest, at their own speed, and slowest."""
-
-    earliest: int
-    unbent: int
-    latest: int
-
-
-class _Way(NamedTuple):
-    """A path, by when it can have ended: transitions taken, their costs, and the position after the last."""
-
-    lands: _Landing
-    edges: tuple[Transition, ...]
-    cost: float
-    at: Position
+# The costs of a way, as complex numbers, which are ordered by their real parts first: the sum of its transitions' costs
+# + 1j times the frames by which its clips are stretched or shortened.
+_Costs: TypeAlias = NDArray[np.complex128]
 
 
 @dataclass(frozen=True, slots=True)
-class _Meeting:
-    """One way back: when its last transition ends, and the frames of the last clip until it meets."""
+class _Frames:
+    """The frames of a graph's motions in a row, and the transitions between them.
 
-    way: _Way
-    landed: int
+    Attributes
+    ----------
+    first : array, shape (n_motions + 1,). The number of each motion's first frame; at the end that of all frames.
+    is_blank : array. After each motion come blanks, where nothing can be, so that no step leads into the next motion.
+    sources, targets : arrays, shape (n_transitions,). The frames that transitions leave, and those shown after them.
+    """
+
+    first: IntArray
+    is_blank: BoolArray
+    sources: IntArray
+    targets: IntArray
+
+    def number(self, position: Position) -> int:
+        """Return the number of a position in the row."""
+        return int(self.first[position.motion]) + position.frame
+
+    def position(self, number: int) -> Position:
+        """Return the position with a number."""
+        motion = int(np.searchsorted(self.first, number, side="right")) - 1
+        return Position(motion, number - int(self.first[motion]))
+
+
+@dataclass(frozen=True, slots=True)
+class _Step:
+    """The last step to a frame: from frame `source` by some frames of a clip, or by a transition."""
+
+    source: int
     n_output: int
     n_source: int
-
-    @property
-    def at(self) -> int:
-        return self.landed + self.n_output
-
-    @property
-    def key(self) -> tuple[int, float, int]:
-        bend = abs(self.landed - self.way.lands.unbent) + abs(self.n_source - self.n_output)
-        return self.at, self.way.cost, bend
+    cost: complex
+    edge: Transition | None = None
 
 
 def find_return(
@@ -59,87 +71,102 @@ def find_return(
     The way is a path in the part's own graph that is at the motion and frame of the graph above at the same time, the
     speed of its clips bent by at most a fifth. Of equally soon ways the smoothest, then the least bent.
 
+    It takes 16 bytes for each frame of the graph and each output frame up to the meeting.
+
     Parameters
     ----------
     position, time : where the part is in its graph, and the output frame from which on.
     above : what the graph above plays meanwhile at its own speed; motions as indices of `graph`.
     deadline : the latest output frame at which the two may meet.
     """
-    best: _Meeting | None = None
-    pending = [_Way(_Landing(time, time, time), (), 0.0, position)]
-    # Of ways that land in the same place at the same times only the smoothest counts; without this there are too many.
-    smoothest: dict[tuple[Position, _Landing], float] = {}
-    while pending and pending[0].lands.earliest <= deadline:
-        way = heappop(pending)
-        for meeting in _meetings(graph, way, above, deadline):
-            if best is None or meeting.key < best.key:
-                best, deadline = meeting, meeting.at
-        for onward in _onward(graph, way, deadline):
-            if onward.cost < smoothest.get((onward.at, onward.lands), inf):
-                smoothest[onward.at, onward.lands] = onward.cost
-                heappush(pending, onward)
-    return None if best is None else _segments(graph, position, time, best)
+    frames = _frames(graph)
+    costs: list[_Costs] = []
+    for places in _places(frames, time, above, deadline):
+        costs.append(_onward(graph, frames, costs) if costs else _at(frames, position))
+        reached = [place for place in places if np.isfinite(costs[-1][place])]
+        if reached:
+            meets = reached[int(np.argmin(costs[-1][reached]))]
+            return _segments(frames, graph.window, time, reversed(_trace_back(graph, frames, costs, meets)))
+    return None
 
 
-def _onward(graph: MotionGraph, way: _Way, deadline: int) -> Iterator[_Way]:
-    """Yield a way with one more transition, for each that can have ended by the deadline."""
-    for edge in graph.edges[graph.first_edge[way.at.motion] : graph.first_edge[way.at.motion + 1]]:
-        n_source = edge.src_frame - way.at.frame
-        if n_source < 0:
-            continue
-        lands = _Landing(
-            way.lands.earliest + _fewest(n_source) + graph.window,
-            way.lands.unbent + n_source + graph.window,
-            way.lands.latest + _most(n_source) + graph.window,
-        )
-        if lands.earliest > deadline:
-            return
-        yield _Way(lands, (*way.edges, edge), way.cost + edge.cost, edge.arrival)
+def _frames(graph: MotionGraph) -> _Frames:
+    first = np.concatenate(([0], np.cumsum(graph.n_frames + _N_BLANKS)))
+    is_blank = np.arange(first[-1]) >= np.repeat(first[:-1] + graph.n_frames, graph.n_frames + _N_BLANKS)
+    edges = graph.transitions
+    sources = first[edges["src_motion"]] + edges["src_frame"]
+    targets = first[edges["dst_motion"]] + edges["dst_frame"] + 1
+    return _Frames(first, is_blank, sources, targets)
 
 
-def _meetings(graph: MotionGraph, way: _Way, above: Sequence[Clip], deadline: int) -> Iterator[_Meeting]:
-    """Yield where the clip that a way lands in can meet the graph above."""
-    motion, frame = way.at
+def _places(frames: _Frames, time: int, above: Sequence[Clip], deadline: int) -> Sequence[Sequence[int]]:
+    """Return where the graph above is in each output frame from `time` on; where two clips meet, it is at both."""
+    places: list[list[int]] = [[] for _ in range(time, deadline + 1)]
     for clip in above:
-        if clip.first.motion != motion:
-            continue
-        for landed in range(way.lands.earliest, min(way.lands.latest, clip.end, deadline) + 1):
-            ahead = clip.first.frame + landed - clip.begin - frame
-            n_output = max(ceil(abs(ahead) / LARGEST_BEND - 1e-9), clip.begin - landed)
-            within_clip = frame + n_output + ahead < graph.n_frames[motion]
-            if landed + n_output <= min(clip.end, deadline) and within_clip:
-                yield _Meeting(way, landed, n_output, n_output + ahead)
+        for moment in range(max(clip.begin, time), min(clip.end, deadline) + 1):
+            places[moment - time].append(frames.number(clip.first) + moment - clip.begin)
+    return places
 
 
-def _fewest(n_source: int) -> int:
-    """Return the fewest output frames in which `n_source` frames of a clip may be played."""
-    return ceil(n_source / (1 + LARGEST_BEND) - 1e-9)
+def _at(frames: _Frames, position: Position) -> _Costs:
+    """Return the costs of being at each frame where one is at `position`."""
+    costs = np.full(len(frames.is_blank), np.inf, np.complex128)
+    costs[frames.number(position)] = 0.0
+    costs[frames.is_blank] = np.inf
+    return costs
 
 
-def _most(n_source: int) -> int:
-    """Return the most output frames in which `n_source` frames of a clip may be played."""
-    return floor(n_source / (1 - LARGEST_BEND) + 1e-9)
+def _onward(graph: MotionGraph, frames: _Frames, costs: Sequence[_Costs]) -> _Costs:
+    """Return the least costs of being at each frame one output frame after the last of `costs`; inf: one cannot."""
+    onward = np.full(len(frames.is_blank), np.inf, np.complex128)
+    for n_output, n_source in _STEPS:
+        if n_output <= len(costs):
+            before = costs[-n_output][:-n_source] + 1j * abs(n_output - n_source)
+            np.minimum(onward[n_source:], before, out=onward[n_source:])
+    if graph.window <= len(costs):
+        before = costs[-graph.window][frames.sources]
+        taken = np.flatnonzero(np.isfinite(before))
+        np.minimum.at(onward, frames.targets[taken], before[taken] + graph.transitions["cost"][taken])
+    onward[frames.is_blank] = np.inf
+    return onward
 
 
-def _segments(graph: MotionGraph, position: Position, time: int, meeting: _Meeting) -> tuple[Segment, ...]:
-    """Return a way back as segments; the clips share the time that there is, each as little bent as it may."""
+def _trace_back(graph: MotionGraph, frames: _Frames, costs: Sequence[_Costs], meets: int) -> Sequence[_Step]:
+    """Return the steps of the cheapest way to the frame `meets` in the last of `costs`, the last step first."""
+    steps: list[_Step] = []
+    time, at = len(costs) - 1, meets
+    while time > 0:
+        # The sums are those by which `costs` were made, so that they are equal to the last bit.
+        step = next(
+            step
+            for step in _last_steps(graph, frames, at)
+            if step.n_output <= time and costs[time - step.n_output][step.source] + step.cost == costs[time][at]
+        )
+        steps.append(step)
+        time, at = time - step.n_output, step.source
+    return steps
+
+
+def _last_steps(graph: MotionGraph, frames: _Frames, at: int) -> Iterator[_Step]:
+    """Yield all steps that lead to a frame."""
+    for n_output, n_source in _STEPS:
+        if n_source <= at:
+            yield _Step(at - n_source, n_output, n_source, 1j * abs(n_output - n_source))
+    for number in np.flatnonzero(frames.targets == at):
+        edge = graph.edges[number]
+        yield _Step(int(frames.sources[number]), graph.window, 0, complex(edge.cost), edge)
+
+
+def _segments(frames: _Frames, window: int, time: int, steps: Iterable[_Step]) -> tuple[Segment, ...]:
+    """Return steps in a row as segments; all steps in a clip as one, so that it is bent evenly."""
     segments: list[Segment] = []
-    lengths: list[int] = []
-    at = position
-    for edge in meeting.way.edges:
-        lengths.append(edge.src_frame - at.frame)
-        at = edge.arrival
-    spare = meeting.landed - time - graph.window * len(lengths) - sum(lengths)
-    at = position
-    for edge, n_source in zip(meeting.way.edges, lengths, strict=True):
-        change = min(max(spare, _fewest(n_source) - n_source), _most(n_source) - n_source)
-        spare -= change
-        segments += _bent(time, at, n_source + change, n_source)
-        time += n_source + change
-        segments.append(play_transition(time, edge, graph.window))
-        at, time = edge.arrival, time + graph.window
-    return (*segments, *_bent(time, at, meeting.n_output, meeting.n_source))
-
-
-def _bent(begin: int, first: Position, n_output: int, n_source: int) -> tuple[Clip, ...]:
-    return (Clip(begin, begin + n_output, first, n_source),) if n_output > 0 else ()
+    for step in steps:
+        last, end = segments[-1] if segments else None, time + step.n_output
+        if step.edge is not None:
+            segments.append(play_transition(time, step.edge, window))
+        elif isinstance(last, Clip):
+            segments[-1] = replace(last, end=end, n_source=last.n_source + step.n_source)
+        else:
+            segments.append(Clip(time, end, frames.position(step.source), step.n_source))
+        time = end
+    return tuple(segments)
