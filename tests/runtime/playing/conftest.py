@@ -3,12 +3,14 @@
 import random
 from collections import defaultdict
 from collections.abc import Callable, Collection, Mapping, Sequence
+from dataclasses import replace
 from typing import Any, NamedTuple
 
 import numpy as np
 import pytest
 from hypothesis import strategies as st
 
+from mlmg_runtime.library import Library
 from mlmg_runtime.motion_graph import TRANSITION, UNREACHABLE, MotionGraph, Position, Transition
 from mlmg_runtime.playing.performer import Performer
 
@@ -32,9 +34,12 @@ def soonest() -> Soonest:
 
 
 @pytest.fixture(scope="session")
-def motion_graphs() -> st.SearchStrategy[MotionGraph]:
-    """Return random motion graphs with few frames, and few different costs, so that ties are common."""
-    return _motion_graphs()
+def motion_graphs() -> Callable[..., st.SearchStrategy[MotionGraph]]:
+    """Return a function of the longest clip's frames that makes random motion graphs.
+
+    They have few different costs, so that ties are common.
+    """
+    return _motion_graphs
 
 
 def _soonest(
@@ -97,13 +102,14 @@ def _steps(graph, leaving, state, way):
 
 
 @st.composite
-def _motion_graphs(draw: st.DrawFn) -> MotionGraph:
-    n_frames = draw(st.lists(st.integers(6, 14), min_size=1, max_size=4))
+def _motion_graphs(draw: st.DrawFn, longest: int) -> MotionGraph:
+    n_frames = draw(st.lists(st.integers(6, longest), min_size=1, max_size=4))
     window = draw(st.integers(2, 3))
     motions = st.integers(0, len(n_frames) - 1)
     marks = draw(
         st.lists(
             st.tuples(motions, st.integers(0, 99), motions, st.integers(0, 99), st.integers(0, 3)),
+            min_size=draw(st.sampled_from([0, 6])),
             max_size=14,
         )
     )
@@ -157,6 +163,25 @@ def motion_graph() -> Callable[..., MotionGraph]:
         return graph_from(n_frames, window, rows)
 
     return make
+
+
+@pytest.fixture(scope="session")
+def rewired(small_library: Library) -> Callable[..., Library]:
+    """Return a function that gives graphs of the small library other transitions.
+
+    Of each graph: (from, frame, to, frame, cost = 0.5) a transition.
+    """
+
+    def rewire(marks: Mapping[str, Sequence[tuple[Any, ...]]]) -> Library:
+        graphs = dict(small_library.by_name)
+        for name, own in marks.items():
+            graph = graphs[name]
+            rows = sorted((graph.index[a], i, graph.index[b], j, 1.0, *(cost or (0.5,))) for a, i, b, j, *cost in own)
+            edges, hops = np.array(rows, dtype=TRANSITION), _hops(len(graph.motions), rows)
+            graphs[name] = replace(graph, transitions=edges, hops=hops)
+        return replace(small_library, by_name=graphs)
+
+    return rewire
 
 
 # Random things to ask of a character.

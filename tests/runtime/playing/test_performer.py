@@ -12,7 +12,7 @@ from mlmg_runtime.errors import PlayError
 from mlmg_runtime.library import Library
 from mlmg_runtime.motion_graph import MotionGraph, Position
 from mlmg_runtime.playing.holding import stay
-from mlmg_runtime.playing.performer import LONGEST_RETURN_S, Performer
+from mlmg_runtime.playing.performer import Performer
 from mlmg_runtime.playing.returning import find_return
 from mlmg_runtime.playing.timeline import Blend, Clip, Segment, Timeline
 
@@ -219,7 +219,7 @@ class Model:
 
     def comes_back(self, graph: str) -> int:
         own = self.library.by_name[graph]
-        deadline = self.now + round(LONGEST_RETURN_S * self.library.frame_rate)
+        deadline = self.now + round(2.0 * self.library.frame_rate)
         when, at = self.where(graph, self.now)
         future = takewhile(lambda moment: moment[0] <= deadline, self.future(graph))
         way = find_return(own, at, when, [Clip(time, time, there, 0) for time, there in future], deadline)
@@ -373,6 +373,26 @@ def test_before_a_part_is_ended_those_below_it_are_though_they_are_named(small_l
     assert performer.motion("Left-Arm") == "Reach"
     arm, (upper,) = runs(performer.timeline(), "Left-Arm"), runs(performer.timeline(), "Upper-Body")
     assert arm[0][-1].end <= upper[-1].end <= arm[1][0].begin
+
+
+# The part is brought to Wave in frame 18. On its way back it is ahead of the whole body, and plays as slowly as it may:
+# clips of 18 and 24 frames in 22 and 30, which takes two seconds; or else of 19 and 24 frames in 23 and 30.
+@pytest.mark.parametrize(("leaves", "enters", "ends", "on_the_spot"), [(39, 53, 78, False), (40, 54, 26, True)])
+def test_a_part_comes_back_on_a_way_of_two_seconds_but_not_on_a_longer_one(
+    rewired, leaves: int, enters: int, ends: int, on_the_spot: bool
+) -> None:
+    library = rewired(
+        {
+            "Full-Body": [("Stand", 110, "Stand", 20)],
+            "Upper-Body": [("Stand", 10, "Wave", 20), ("Wave", leaves, "Stand", enters)],
+        }
+    )
+    performer = Performer(library, "Stand")
+    performer.bring([("Upper-Body", ["Wave"])])
+    assert performer.now == 18
+    performer.end("Upper-Body")
+    assert performer.now == ends
+    assert (performer.timeline().tracks["Upper-Body"][-1].after is None) == on_the_spot
 
 
 def test_rule_1_forbids_a_part_to_leave_a_motion_that_is_not_on_it(small_library: Library) -> None:
