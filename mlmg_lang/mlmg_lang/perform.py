@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from mlmg_lang.planning.resolved import Command, End, ResolvedPlan, Statement, Wait
+from mlmg_lang.execution import Step, executed
+from mlmg_lang.planning.resolved import Command, Cycles, End, Once, ResolvedPlan, Seconds, Wait
 from mlmg_runtime.bvh.document import Bvh
 from mlmg_runtime.clips import bvh_from_poses, resample, same_rate
 from mlmg_runtime.errors import FileError, PlayError
@@ -39,7 +41,7 @@ def perform(
 
     Parameters
     ----------
-    seed : stated in the report; the same plan, library and seed always give the same frames.
+    seed : of what `choose` draws; the same plan, library and seed always give the same frames.
     frame_rate : of the motion, frames a second; None for the library's.
     blend : "c1" or "linear", for all transitions; None for what each graph was configured with.
 
@@ -50,15 +52,16 @@ def perform(
     """
     performer = Performer(library, plan.start)
     commands = []
-    for number, statement in enumerate(plan.statements, start=1):
+    counted = library.root.name
+    for statement, is_last in _with_last(executed(plan, seed)):
         begin = performer.now
-        is_last = number == len(plan.statements)
         try:
-            arrive = _execute(performer, statement, is_last)
+            arrive = _execute(performer, statement, counted, is_last)
         except PlayError as error:
             line, _ = plan.source.position(statement.span.start)
             raise ScriptError(plan.source.name, line, str(error)) from None
         if isinstance(statement, Command):
+            counted = statement.layers[0].graph
             motions = {layer.graph: performer.motion(layer.graph) for layer in statement.layers}
             commands.append((statement, begin, arrive, performer.now, motions))
     if performer.now == 0:
@@ -81,23 +84,51 @@ def perform(
     return Performance(bvh_from_poses(library.skeleton, poses, 1.0 / rate, library.up), report)
 
 
-def _execute(performer: Performer, statement: Statement, is_last: bool) -> int:
-    """Perform one statement; return the frame at which all of its parts have arrived."""
-    rate = performer.library.frame_rate
+def _with_last(steps: Iterable[Step]) -> Iterator[tuple[Step, bool]]:
+    """Yield each of some steps, and whether it is the last."""
+    before: Step | None = None
+    for step in steps:
+        if before is not None:
+            yield before, False
+        before = step
+    if before is not None:
+        yield before, True
+
+
+def _execute(performer: Performer, statement: Step, counted: str, is_last: bool) -> int:
+    """Perform one statement; return the frame at which all of its parts have arrived.
+
+    Parameters
+    ----------
+    counted : the graph whose cycles a `wait` counts.
+    """
     match statement:
-        case Command(layers=layers, duration_s=duration_s):
-            performer.bring([(layer.graph, layer.candidates) for layer in layers])
+        case Command(layers=layers, duration=duration):
+            wanted = [(layer.graph, layer.candidates) for layer in layers]
+            if isinstance(duration, Once):
+                performer.bring(wanted, from_start=True)
+            else:
+                performer.bring(wanted)
             arrive = performer.now
-            if duration_s is not None:
-                performer.hold(round(duration_s * rate))
+            if isinstance(duration, Once):
+                performer.play_pass(layers[0].graph)
+            elif duration is not None:
+                performer.hold(_n_frames(performer, duration, layers[0].graph))
             elif is_last:
                 performer.play_out(layers[0].graph)
             return arrive
-        case Wait(duration_s=duration_s):
-            performer.hold(round(duration_s * rate))
+        case Wait(duration=duration):
+            performer.hold(_n_frames(performer, duration, counted))
         case End(graph=graph):
             performer.end(graph)
     return performer.now
+
+
+def _n_frames(performer: Performer, duration: Seconds | Cycles, counted: str) -> int:
+    """Return how many frames of the library a duration takes; a cycle is as long as the clip of a graph's motion."""
+    if isinstance(duration, Seconds):
+        return round(duration.number * performer.library.frame_rate)
+    return round(duration.number * performer.library.n_frames(performer.motion(counted)))
 
 
 def _command_entry(

@@ -17,10 +17,17 @@ class Span:
 
 @dataclass(frozen=True)
 class Source:
-    """A text with the name that messages call it by."""
+    """A text with the name that messages call it by.
+
+    Attributes
+    ----------
+    used : the files whose definitions it uses. Offsets go on in them, one after the other: where a text ends, its end
+        is an offset too; the first of the next is the one after that.
+    """
 
     text: str
     name: str = "<script>"
+    used: tuple[Source, ...] = ()
 
     @cached_property
     def line_starts(self) -> tuple[int, ...]:
@@ -32,15 +39,33 @@ class Source:
                 starts.append(at + 1)
         return tuple(starts)
 
+    @property
+    def end(self) -> int:
+        """Return the offset after the last of all files: where that of another would begin."""
+        return len(self.text) + 1 + sum(len(other.text) + 1 for other in self.used)
+
+    def file(self, offset: int) -> tuple[Source, int]:
+        """Return the file that an offset lies in, and the offset of its beginning."""
+        base = 0
+        for file in (self, *self.used):
+            if offset <= base + len(file.text):
+                return file, base
+            base += len(file.text) + 1
+        raise ValueError(f"offset {offset} is in none of the files, which end at {self.end}")
+
     def position(self, offset: int) -> tuple[int, int]:
-        """Return line and column of an offset, both from 1, in code points."""
+        """Return line and column of an offset in its file, both from 1, in code points."""
+        if offset > len(self.text):
+            file, base = self.file(offset)
+            return file.position(offset - base)
         line = bisect_right(self.line_starts, offset)
         return line, offset - self.line_starts[line - 1] + 1
 
     def location(self, span: Span) -> tuple[int, int, int, int]:
-        """Return (line, column, end line, end column) of a span, from 1, end exclusive."""
+        """Return (line, column, end line, end column) of a span in its file, from 1, end exclusive."""
         return (*self.position(span.start), *self.position(span.end))
 
     def slice(self, span: Span) -> str:
         """Return the text of a span."""
-        return self.text[span.start : span.end]
+        file, base = (self, 0) if span.end <= len(self.text) else self.file(span.start)
+        return file.text[span.start - base : span.end - base]

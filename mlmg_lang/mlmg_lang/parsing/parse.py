@@ -28,13 +28,19 @@ class Parsed:
     diagnostics: tuple[Diagnostic, ...]
 
 
-def parse(source: Source, tokens: Sequence[Token]) -> Parsed:
-    """Return the syntax tree of a whole script; a statement that cannot be read is `Broken` in it."""
+def parse(source: Source, tokens: Sequence[Token], base: int = 0) -> Parsed:
+    """Return the syntax tree of a whole file; a statement that cannot be read is `Broken` in it.
+
+    Parameters
+    ----------
+    base : where the file begins whose tokens these are: the script itself, or one that it uses.
+    """
     layout = lay_out(tokens)
     reader = _Reader(source)
     reader.diagnostics += [*check_tokens(tokens), *layout.diagnostics][:MAX_MISTAKES]
     items = reader.items(layout.items)
-    return Parsed(syntax.Script(items, Span(0, len(source.text))), tuple(reader.diagnostics))
+    span = Span(base, base + len(source.file(base)[0].text))
+    return Parsed(syntax.Script(items, span), tuple(reader.diagnostics))
 
 
 class _Reader:

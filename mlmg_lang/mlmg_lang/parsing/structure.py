@@ -1,4 +1,4 @@
-"""The syntax tree -> what is wrong with it whatever the library, and what is not played yet."""
+"""The syntax tree -> what is wrong with it whatever the library."""
 
 from __future__ import annotations
 
@@ -14,23 +14,45 @@ SUB = "Sub"
 """In place of a graph's name: the child of the graph last named."""
 LONGEST_S = 24 * 3600.0
 """The longest duration that anyone can mean."""
+MAX_EXECUTED = 100_000
+"""The most statements that a `repeat` may come to."""
 
 
-def check_structure(script: syntax.Script, frame_rate: float | None = None) -> Iterator[Diagnostic]:
-    """Yield what can be said without a library; its frame rate, if there is one, says how long frames are."""
-    definitions = frozenset(item.name.text for item in script.items if isinstance(item, syntax.Let))
-    uses = any(isinstance(item, syntax.Use) for item in script.items)
-    yield from _Structure(frame_rate, None if uses else definitions).body(script.items, top=True)
+def misplaced(script: syntax.Script) -> Iterator[Diagnostic]:
+    """Yield the definitions that do not stand at the top level."""
+    for item in script.items:
+        if isinstance(item, syntax.Repeat | syntax.Choose):
+            for node in syntax.walk(item):
+                if isinstance(node, syntax.Let | syntax.Use):
+                    yield _nested(node)
 
 
-def motion_mistakes(motion: syntax.Motion, definitions: frozenset[str] | None) -> Iterator[Diagnostic]:
-    """Yield what is wrong with one expression, of what `check_structure` says of it.
+def check_structure(
+    script: syntax.Script, frame_rate: float | None = None, complete: bool = True
+) -> Iterator[Diagnostic]:
+    """Yield what can be said of a script without a library, when its definitions have been put in.
 
     Parameters
     ----------
-    definitions : the names that may be called with arguments; None if another file may hold more.
+    frame_rate : of the library, if there is one; it says how long frames are.
+    complete : False if a file with definitions could not be used, so that any name may be one.
     """
-    return _Structure(None, definitions).motion(motion, sub=False)
+    yield from _Structure(frame_rate, complete).body(script.items)
+
+
+def check_definition(let: syntax.Let, frame_rate: float | None = None) -> Iterator[Diagnostic]:
+    """Yield what can be said of a definition wherever it is used."""
+    structure = _Structure(frame_rate, False)
+    yield from structure.motion(let.command.motion, sub=True)
+    parameters = frozenset(parameter.name.text for parameter in let.parameters or ())
+    if let.command.duration is not None:
+        gap = Span(let.command.motion.span.end, let.command.duration.span.end)
+        yield from structure.duration(let.command.duration, gap, parameters)
+
+
+def motion_mistakes(motion: syntax.Motion, complete: bool) -> Iterator[Diagnostic]:
+    """Yield what is wrong with one expression, of what `check_structure` says of it."""
+    return _Structure(None, complete).motion(motion, sub=False)
 
 
 def is_sub(name: syntax.Name) -> bool:
@@ -53,68 +75,84 @@ def group_of(call: syntax.Call) -> syntax.Motion | None:
     return None
 
 
+def n_executed(items: Iterable[syntax.Item]) -> int:
+    """Return how many statements are executed at most; counts over a billion are cut."""
+    total = 0
+    for item in items:
+        if isinstance(item, syntax.Repeat):
+            total += min(int(item.head.count[:20]), 10**9) * n_executed(item.body)
+        elif isinstance(item, syntax.Choose):
+            total += max((n_executed(branch.body) for branch in item.branches), default=0)
+        else:
+            total += 1
+    return min(total, 10**9)
+
+
 @dataclass(frozen=True, slots=True)
 class _Structure:
-    """What the checks need to know of the whole script.
-
-    Attributes
-    ----------
-    definitions : the names that may be called with arguments; None if another file may hold more.
-    """
+    """What the checks need to know of the whole script; see `check_structure`."""
 
     frame_rate: float | None
-    definitions: frozenset[str] | None
+    complete: bool
 
-    def body(self, items: Iterable[syntax.Item], top: bool = False) -> Iterator[Diagnostic]:
+    def body(self, items: Iterable[syntax.Item]) -> Iterator[Diagnostic]:
         for item in items:
             match item:
-                case syntax.Let() | syntax.Use():
-                    yield _definition_not_yet(item) if top else _nested(item)
-                    if isinstance(item, syntax.Let):
-                        yield from self._command(item.command, item.parameters or ())
-                case syntax.Repeat(head, body):
-                    yield _not_yet(head.span, "repeat")
-                    yield from self.body(body)
-                case syntax.Choose(head, branches):
-                    yield _not_yet(head.span, "choose")
-                    for branch in branches:
-                        yield from self.body(branch.body)
+                case syntax.Repeat():
+                    yield from self._repeat(item)
+                case syntax.Choose():
+                    yield from self._choose(item)
                 case syntax.Command():
                     yield from self._command(item)
                 case syntax.Wait(duration, span):
-                    yield from self._duration(duration, (), span)
+                    yield from self.duration(duration, span)
                 case syntax.End(graph) if is_sub(graph):
                     yield _misplaced_sub(graph)
 
-    def _command(self, command: syntax.Command, parameters: tuple[syntax.Parameter, ...] = ()) -> Iterator[Diagnostic]:
+    def _repeat(self, repeat: syntax.Repeat) -> Iterator[Diagnostic]:
+        if int(repeat.head.count[:20]) == 0:
+            message, advice = "this is repeated no times", "leave it out, or say how often"
+            fix = Fix(repeat.span, "", safe=False)
+            yield Diagnostic("MS045", message, repeat.head.span, help=advice, fixes=(fix,))
+        elif n_executed((repeat,)) > MAX_EXECUTED and n_executed(repeat.body) <= MAX_EXECUTED:
+            message = f"this comes to more than {MAX_EXECUTED:,} statements, one after the other"
+            yield Diagnostic("MS048", message, repeat.head.span, help="repeat it less often")
+        yield from self.body(repeat.body)
+
+    def _choose(self, choose: syntax.Choose) -> Iterator[Diagnostic]:
+        weights = [1 if branch.weight is None else int(branch.weight.number[:20]) for branch in choose.branches]
+        if not any(weights):
+            message = "every branch has the weight 0, so none can be drawn"
+            yield Diagnostic("MS049", message, choose.head.span, help="give one of them a weight above 0")
+        for branch in choose.branches:
+            yield from self.body(branch.body)
+
+    def _command(self, command: syntax.Command) -> Iterator[Diagnostic]:
         yield from self.motion(command.motion, sub=False)
-        if command.once is not None:
-            yield _not_yet(command.once, "once")
         if command.duration is not None:
             gap = Span(command.motion.span.end, command.duration.span.end)
-            yield from self._duration(command.duration, parameters, gap)
+            yield from self.duration(command.duration, gap)
 
     # --- durations ---
 
-    def _duration(
-        self, amount: syntax.Amount, parameters: tuple[syntax.Parameter, ...], whole: Span
+    def duration(
+        self, amount: syntax.Amount, whole: Span, parameters: frozenset[str] = frozenset()
     ) -> Iterator[Diagnostic]:
         """Yield what is wrong with a duration; `whole` is what could be taken out if it lasts no time."""
         if isinstance(amount, syntax.Name):
-            if amount.sound and amount.text not in {parameter.name.text for parameter in parameters}:
+            if amount.sound and amount.text not in parameters:
                 yield _no_number(amount)
             return
-        if unit_of(amount) == "cycles":
-            yield _not_yet(amount.span, "cycles")
-            return
+        number = float(amount.number)
         seconds = seconds_from_quantity(amount, self.frame_rate)
         shortest = 0.5 / self.frame_rate if self.frame_rate is not None else 0.0
-        if float(amount.number) == 0 or (seconds is not None and seconds < shortest):
-            message = "this lasts no time" if float(amount.number) == 0 else "this is shorter than a frame"
+        if number == 0 or (seconds is not None and seconds < shortest):
+            message = "this lasts no time" if number == 0 else "this is shorter than a frame"
             fix = Fix(whole, "", safe=False)
             yield Diagnostic("MS045", message, amount.span, help="leave it out, or give it time", fixes=(fix,))
-        elif (seconds if seconds is not None else float(amount.number)) > LONGEST_S:
-            yield Diagnostic("MS046", "this is longer than a day", amount.span, help="check number and unit")
+        elif (number if seconds is None else seconds) > LONGEST_S:
+            message = "this is longer than a day" if unit_of(amount) != "cycles" else "no one sees so many cycles"
+            yield Diagnostic("MS046", message, amount.span, help="check number and unit")
 
     # --- motion expressions ---
 
@@ -152,7 +190,7 @@ class _Structure:
             yield _misplaced_sub(graph)
 
     def _call(self, call: syntax.Call, sub: bool) -> Iterator[Diagnostic]:
-        if self.definitions is None or call.name.text in self.definitions:
+        if not self.complete:
             return
         yield from self._graph(call.name, sub)
         inner = group_of(call)
@@ -162,17 +200,6 @@ class _Structure:
         message = f"`{call.name.text}` is not a definition, so it takes no arguments"
         advice = "after a graph's name, write one motion expression in the parentheses"
         yield Diagnostic("MS028", message, call.span, help=advice)
-
-
-def _not_yet(span: Span, word: str) -> Diagnostic:
-    message = f"`{word}` is part of Motion Script, but this version does not play it yet"
-    return Diagnostic("MS060", message, span)
-
-
-def _definition_not_yet(item: syntax.Let | syntax.Use) -> Diagnostic:
-    if isinstance(item, syntax.Use):
-        return _not_yet(item.span, "use")
-    return _not_yet(Span(item.span.start, item.name.span.end), "let")
 
 
 def _nested(item: syntax.Let | syntax.Use) -> Diagnostic:

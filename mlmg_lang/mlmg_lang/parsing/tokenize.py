@@ -8,10 +8,16 @@ from mlmg_lang.parsing.tokens import Token
 from mlmg_lang.source import Source, Span
 
 
-def tokenize(source: Source) -> tuple[Token, ...]:
-    """Return the tokens of a text in order, comments and line ends too. This never fails."""
+def tokenize(source: Source, base: int = 0) -> tuple[Token, ...]:
+    """Return the tokens of a text in order, comments and line ends too. This never fails.
+
+    Parameters
+    ----------
+    base : where the file begins whose tokens are wanted: the script itself, or one that it uses.
+    """
+    text = source.file(base)[0].text
     return tuple(
-        Token(piece.type, str(piece), Span(piece.start_pos, piece.start_pos + len(piece)))
-        for piece in scan(motion_script(), source.text)
+        Token(piece.type, str(piece), Span(base + piece.start_pos, base + piece.start_pos + len(piece)))
+        for piece in scan(motion_script(), text)
         if piece.type != "SPACE" and piece.start_pos is not None
     )

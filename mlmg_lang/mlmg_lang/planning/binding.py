@@ -23,8 +23,8 @@ class Scope:
 
     Attributes
     ----------
-    definitions : the names that the script defines.
-    open : whether other files may define more.
+    definitions : the names that are defined where the expression stands; elsewhere they have been put in.
+    open : whether a file that defines more could not be used.
     """
 
     names: Names

@@ -17,7 +17,9 @@ from mlmg_lang.planning.typed import Layer
 from mlmg_lang.source import Span
 
 Setter: TypeAlias = tuple[int, str]
-"""The statement, by its number, and the graph that it set."""
+"""The step, by its number, and the graph that it set."""
+Origins: TypeAlias = Mapping[str, frozenset[Setter | None]]
+"""By motion that may drive a graph, what may have set it; None for the start, or what could not be understood."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,14 +28,21 @@ class Part:
 
     Attributes
     ----------
-    motions : those that may drive it, its own or its parent's.
-    setter : what set it; None for the start.
+    origins : the motions that may drive it, its own or its parent's.
     alone : whether it may run a motion other than its parent's.
     """
 
-    motions: frozenset[str]
-    setter: Setter | None
+    origins: Origins
     alone: bool
+
+    @property
+    def motions(self) -> frozenset[str]:
+        """Return the motions that may drive it."""
+        return frozenset(self.origins)
+
+    def setters(self, motions: Iterable[str]) -> frozenset[Setter | None]:
+        """Return what may have set it to one of some motions."""
+        return frozenset(setter for motion in motions for setter in self.origins[motion])
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,10 +70,15 @@ class Move:
 
 @dataclass(frozen=True, slots=True)
 class Narrow:
-    """An earlier command has to do without some of its candidates, from which this one could not go on."""
+    """Earlier commands have to do without some of their candidates, from which this one could not go on.
 
-    setter: Setter
-    without: frozenset[str]
+    Attributes
+    ----------
+    without : by what set them, the motions.
+    graph : on which this one could not go on.
+    """
+
+    without: Mapping[Setter, frozenset[str]]
     graph: str
 
 
@@ -94,12 +108,43 @@ class Stopped:
 
 def begin(names: Names, motion: str) -> State:
     """Return the state at the start."""
-    return State({names.root: Part(frozenset((motion,)), None, True)})
+    return State({names.root: Part({motion: frozenset((None,))}, True)})
 
 
 def unknown(names: Names) -> State:
     """Return the state in which anything may be playing."""
-    return State({names.root: Part(frozenset(names.motions(names.root)), None, True)}, certain=False)
+    nobody: frozenset[Setter | None] = frozenset((None,))
+    return State({names.root: Part(dict.fromkeys(names.motions(names.root), nobody), True)}, certain=False)
+
+
+def joined(states: Iterable[State], names: Names) -> State:
+    """Return the state in which any of some states may be: at least one."""
+    first, *others = states
+    for other in others:
+        if other != first:
+            first = _either(first, other, names)
+    return first
+
+
+def _either(a: State, b: State, names: Names) -> State:
+    parts = {}
+    for graph in names.graphs:
+        own = [state.parts[graph] for state in (a, b) if graph in state.parts]
+        if len(own) == 1:
+            follows = b if graph in a.parts else a
+            above = next(above for above in names.ancestors(graph) if above in follows.parts)
+            own = [Part(own[0].origins, True), follows.parts[above]]
+        if own:
+            parts[graph] = Part(_merged(part.origins for part in own), any(part.alone for part in own))
+    return State(parts, a.certain and b.certain)
+
+
+def _merged(many: Iterable[Origins]) -> Origins:
+    merged: dict[str, frozenset[Setter | None]] = {}
+    for origins in many:
+        for motion, setters in origins.items():
+            merged[motion] = merged.get(motion, frozenset()) | setters
+    return merged
 
 
 def ended(state: State, graph: str, names: Names) -> State:
@@ -206,17 +251,26 @@ class _Mover:
         """Return what the topmost layer starts from, and what drives the graph above it."""
         above = graph if graph in self.state.parts else self._running_above(graph)
         part = self.state.parts[above]
-        may_leave = part.motions if above == graph else part.motions & self._on(graph)
-        good = frozenset(motion for motion in may_leave if self._leads_on(graph, motion))
+        good = frozenset(motion for motion in part.motions & self._on(graph) if self._leads_on(graph, motion))
         bad = part.motions - good
-        if not good:
-            motions = tuple(motion for motion in self.names.motions(above) if motion in bad)
-            span, within = self.layers[graph].span, not self.state.certain
-            return Stopped(graph, span, above, motions, not may_leave, part.setter, within)
-        if bad and part.setter is not None:
-            return Narrow(part.setter, bad, graph)
+        blamed = part.setters(bad)
+        if not good or (None in blamed and self.state.certain):
+            at_fault = bad if not good else frozenset(m for m in bad if None in part.origins[m])
+            return self._stopped(graph, above, at_fault, part.setters(at_fault))
+        without = {setter: frozenset(m for m in bad if setter in part.origins[m]) for setter in filter(None, blamed)}
+        if without:
+            return Narrow(without, graph)
         driving = self.state.parts[self._running_above(graph)].motions if graph != self.names.root else good
         return good, driving
+
+    def _stopped(self, graph: str, above: str, at_fault: frozenset[str], setters: frozenset[Setter | None]) -> Stopped:
+        """Say that the topmost layer could not start from some motions."""
+        setter = min(filter(None, setters), default=None)
+        above = above if setter is None else setter[1]
+        known = dict.fromkeys(motion for higher in self.names.graphs for motion in self.names.motions(higher))
+        motions = tuple(motion for motion in known if motion in at_fault)
+        by_rule_1 = not at_fault & self._on(graph)
+        return Stopped(graph, self.layers[graph].span, above, motions, by_rule_1, setter, not self.state.certain)
 
     def _kept(self, graph: str, above: str) -> frozenset[str]:
         """Return what a part plays already, if the one above may stay as it is."""
@@ -236,7 +290,8 @@ class _Mover:
         before = self.state.parts.get(graph)
         alone = moves or (before is not None and before.alone and bool(before.motions & sources))
         same = len(motions) == 1 and motions == driving
-        return Part(motions, (self.index, graph), alone and not same)
+        here: frozenset[Setter | None] = frozenset(((self.index, graph),))
+        return Part(dict.fromkeys(self.left[graph], here), alone and not same)
 
     def _after(self) -> State:
         """Return the state after the command: it ends what is below its graphs and not named."""

@@ -12,16 +12,27 @@ from mlmg_lang.diagnostics import Diagnostic, Fix
 from mlmg_lang.planning.flow import State
 from mlmg_lang.planning.names import Names
 from mlmg_lang.planning.resolve import Resolution
-from mlmg_lang.planning.resolved import Command, Layer
+from mlmg_lang.planning.resolved import Choose, Command, Layer, Repeat, Statement
 from mlmg_lang.source import Span
 
 
 def left_at_once(resolution: Resolution, names: Names) -> Iterator[Diagnostic]:
     """Yield a hint for each command of a script without mistakes that moves something and is certain to be left."""
-    statements = resolution.plan.statements
-    for (command, following), state in zip(pairwise(statements), resolution.states, strict=False):
-        if not isinstance(command, Command) or not isinstance(following, Command) or command.duration_s is not None:
+    bodies = [resolution.plan.statements]
+    for body in bodies:
+        for statement in body:
+            if isinstance(statement, Repeat):
+                bodies.append(statement.body)
+            elif isinstance(statement, Choose):
+                bodies += [branch.body for branch in statement.branches]
+        yield from _in_body(body, resolution, names)
+
+
+def _in_body(body: tuple[Statement, ...], resolution: Resolution, names: Names) -> Iterator[Diagnostic]:
+    for command, following in pairwise(body):
+        if not isinstance(command, Command) or not isinstance(following, Command) or command.duration is not None:
             continue
+        state = resolution.states[command.span]
         moved = (layer for layer in command.layers if _surely_moves(layer, command, state, names))
         graph = next((layer.graph for layer in moved if _surely_leaves(layer, following, names)), None)
         if graph is not None:

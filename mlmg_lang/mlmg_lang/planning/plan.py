@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
-from mlmg_lang.diagnostics import Diagnostic, has_errors
+from mlmg_lang.definitions.gather import Definitions
+from mlmg_lang.diagnostics import Diagnostic, Note, has_errors
 from mlmg_lang.parsing import syntax
 from mlmg_lang.parsing.amounts import seconds_from_quantity, unit_of
 from mlmg_lang.parsing.structure import is_sub, motion_mistakes
@@ -29,11 +30,15 @@ class Planned:
     diagnostics: tuple[Diagnostic, ...]
 
 
-def plan(script: syntax.Script, names: Names, frame_rate: float, source: Source) -> Planned:
-    """Return the typed plan of a script whose structure has been checked."""
-    definitions = frozenset(normal(item.name.text) for item in script.items if isinstance(item, syntax.Let))
-    is_open = any(isinstance(item, syntax.Use) for item in script.items)
-    planner = _Planner(Scope(names, definitions, is_open), frame_rate, source)
+def plan(script: syntax.Script, definitions: Definitions, names: Names, frame_rate: float, source: Source) -> Planned:
+    """Return the typed plan of a script whose definitions have been put in.
+
+    Parameters
+    ----------
+    definitions : those of the script; what is wrong with their names is reported where they stand.
+    """
+    planner = _Planner(Scope(names, frozenset(), not definitions.complete), frame_rate, source)
+    planner.define(definitions)
     statements = planner.body(script.items)
     return Planned(typed.TypedPlan(statements), tuple(planner.diagnostics))
 
@@ -47,10 +52,21 @@ class _Planner:
         self._frame_rate = frame_rate
         self._source = source
 
+    def define(self, definitions: Definitions) -> None:
+        """Report what is wrong with the names of definitions and the names in them."""
+        known = frozenset(definitions.lets)
+        for let in definitions.lets.values():
+            self.diagnostics += _clashes(let.name, self._scope.names)
+            own = frozenset(normal(parameter.name.text) for parameter in let.parameters or ())
+            scope = replace(self._scope, definitions=known | own)
+            self._report(unbound(let.command.motion, scope))
+            for parameter in let.parameters or ():
+                if parameter.default is not None and not isinstance(parameter.default, syntax.Quantity):
+                    self._report(unbound(parameter.default, replace(scope, definitions=known)))
+
     def body(self, items: Iterable[syntax.Item]) -> tuple[typed.Statement, ...]:
-        """Return the typed statements of a body; definitions leave nothing."""
-        kept = (item for item in items if not isinstance(item, syntax.Let | syntax.Use))
-        return tuple(self._statement(item) for item in kept)
+        """Return the typed statements of a body."""
+        return tuple(self._statement(item) for item in items)
 
     def _statement(self, item: syntax.Item) -> typed.Statement:
         planned: typed.Statement = typed.Unplanned(item.span)
@@ -79,7 +95,9 @@ class _Planner:
         return typed.Branch(weight, self.body(branch.body), branch.span)
 
     def _command(self, command: syntax.Command) -> typed.Statement:
+        before = len(self.diagnostics)
         ways = self._ways(command.motion)
+        self.diagnostics[before:] = [_told_from(one, command.span) for one in self.diagnostics[before:]]
         if ways is None:
             return typed.Unplanned(command.span)
         duration = None if command.duration is None else self._duration(command.duration)
@@ -88,7 +106,8 @@ class _Planner:
 
     def _ways(self, motion: syntax.Motion) -> tuple[typed.Layering, ...] | None:
         """Return the assignments that an expression allows; None, and that is reported, if there is none."""
-        if self._report(unbound(motion, self._scope)) or self._is_ill_formed(motion):
+        wrong = self._report(unbound(motion, self._scope))
+        if wrong or any(motion_mistakes(motion, complete=not self._scope.open)):
             return None
         ways = select(motion, self._scope.names, self._source)
         if isinstance(ways, Diagnostic):
@@ -97,11 +116,6 @@ class _Planner:
         remarks = (*graph_hints(motion, self._scope.names), *self._remarks(ways[0]))
         self.diagnostics += remarks
         return None if has_errors(remarks) else ways
-
-    def _is_ill_formed(self, motion: syntax.Motion) -> bool:
-        """Return whether an expression has a mistake that has been reported with the structure."""
-        definitions = None if self._scope.open else self._scope.definitions
-        return any(motion_mistakes(motion, definitions))
 
     def _report(self, wrong: Iterable[Unbound]) -> bool:
         """Collect what is to be said of names that mean nothing; return whether there are any."""
@@ -149,6 +163,25 @@ class _Planner:
             return typed.Duration(None, None, amount.span)
         cycles = float(amount.number) if unit_of(amount) == "cycles" else None
         return typed.Duration(seconds_from_quantity(amount, self._frame_rate), cycles, amount.span)
+
+
+def _told_from(one: Diagnostic, command: Span) -> Diagnostic:
+    """Return what is wrong with something in a definition with the place where it is used."""
+    if one.span is None or (command.start <= one.span.start and one.span.end <= command.end):
+        return one
+    return replace(one, notes=(*one.notes, Note("it is used here", command)))
+
+
+def _clashes(name: syntax.Name, names: Names) -> Iterator[Diagnostic]:
+    """Yield what a definition's name is besides."""
+    if is_sub(name) or normal(name.text) in map(normal, names.graphs):
+        what = "a word for the graph below another" if is_sub(name) else "a graph"
+        yield Diagnostic("MS052", f"`{name.text}` is {what}, so it cannot be defined", name.span, "choose another name")
+        return
+    match = next((found for graph in names.graphs if (found := names.find(graph, name.text, exactly=True))), None)
+    if match is not None:
+        message = f"`{name.text}` is a {match.entry.kind} of this library, which this definition hides"
+        yield Diagnostic("MS053", message, name.span, "choose another name, unless that is meant")
 
 
 def _leaves(choice: typed.Choice) -> Iterator[typed.Named]:

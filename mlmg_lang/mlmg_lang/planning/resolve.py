@@ -1,20 +1,22 @@
 """The typed plan -> the resolved plan: what each command can do where it stands in the script.
 
-Statements are taken one after the other. Where a later command asks for it, an earlier one is narrowed and
-all from there is worked out again; if that leaves something empty, the later command is at fault.
+Statements are taken one after the other, those of a loop again until nothing new can come before them. Where a later
+command asks for it, an earlier one is narrowed and all from there is worked out again; if that leaves something
+empty, the later command is at fault.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 
 from mlmg_lang.catalog import Catalog
 from mlmg_lang.diagnostics import Diagnostic, Fix, Note
 from mlmg_lang.planning import flow, resolved, typed
+from mlmg_lang.planning.chart import START, Step, chart
 from mlmg_lang.planning.names import Kind, Names
 from mlmg_lang.planning.resolved import LeftOut
-from mlmg_lang.source import Source
+from mlmg_lang.source import Source, Span
 from mlmg_lang.spelling import listed, nearest, some
 
 
@@ -24,12 +26,12 @@ class Resolution:
 
     Attributes
     ----------
-    states : what may be playing before each statement of the script, those with mistakes too, and after the last.
+    states : what may be playing before each statement that holds no others, by its span.
     """
 
     plan: resolved.ResolvedPlan
     diagnostics: tuple[Diagnostic, ...]
-    states: tuple[flow.State, ...]
+    states: Mapping[Span, flow.State]
 
 
 def resolve(
@@ -42,11 +44,33 @@ def resolve(
     start : the motion of the root graph to start in; without it, the script or the library says which.
     """
     motion, wrong = _start(plan, names, catalog, start)
-    resolver = _Resolver(names, catalog, plan.statements, source, motion)
-    statements = resolver.run()
+    resolver = _Resolver(names, catalog, chart(plan.statements), source, motion)
+    resolver.run()
     told = (diagnostic for _, diagnostic in sorted(resolver.told.items()))
-    playable = resolved.ResolvedPlan(source, motion, statements)
-    return Resolution(playable, (*wrong, *told), tuple(resolver.states))
+    playable = resolved.ResolvedPlan(source, motion, _rebuilt(plan.statements, resolver.done))
+    states = {
+        step.statement.span: state
+        for step, state in zip(resolver.steps, resolver.entered, strict=True)
+        if step.statement is not None and state is not None
+    }
+    return Resolution(playable, (*wrong, *told), states)
+
+
+def _rebuilt(
+    statements: Iterable[typed.Statement], done: Mapping[Span, resolved.Statement]
+) -> tuple[resolved.Statement, ...]:
+    """Return what is to be played as it is written, each statement in the body that it stands in."""
+    found: list[resolved.Statement] = []
+    for statement in statements:
+        match statement:
+            case typed.Repeat(count, body, span):
+                found.append(resolved.Repeat(count, _rebuilt(body, done), span))
+            case typed.Choose(branches, span):
+                rebuilt = (resolved.Branch(one.weight, _rebuilt(one.body, done), one.span) for one in branches)
+                found.append(resolved.Choose(tuple(rebuilt), span))
+            case _ if statement.span in done:
+                found.append(done[statement.span])
+    return tuple(found)
 
 
 def _start(
@@ -63,152 +87,187 @@ def _start(
         message = f"there is no motion `{given}` on `{names.root}` to start in"
         near = nearest(given, names.motions(names.root))
         return of_library, (Diagnostic("MS044", message, None, f"there is {listed(near)}" if near else None),)
-    first = next((statement for statement in plan.statements if isinstance(statement, typed.Command)), None)
-    return (first and first.start) or of_library, ()
+    first = next((one for one in plan.statements if not isinstance(one, typed.Wait | typed.End)), None)
+    return (first.start if isinstance(first, typed.Command) else None) or of_library, ()
 
 
 @dataclass(slots=True)
 class _Trial:
-    """A narrowing of earlier commands for the sake of statement `index`, and how things were before."""
+    """A narrowing of earlier commands for the sake of step `number`, which can be taken back."""
 
-    index: int
+    number: int
     stopped: flow.Stopped
-    states: list[flow.State]
-    done: dict[int, resolved.Statement]
-    told: dict[int, Diagnostic]
-    forbidden: dict[int, dict[str, dict[str, LeftOut]]]
+    forbidden: list[tuple[flow.Setter, str]] = field(default_factory=list)
 
 
 @dataclass(slots=True)
 class _Resolver:
-    """Goes through the statements.
+    """Goes through the steps; where a loop begins, again and again, until nothing new can be playing there.
 
     Attributes
     ----------
-    states : what may be playing before each statement that has been reached, and after the last of them.
-    done : by statement, what is to be played.
-    told : by statement, what is wrong with it.
-    forbidden : by statement and graph, the candidates that later commands have ruled out.
-    ways : by statement, how many of the ways to understand it have failed.
-    first_stop : by statement, why the first of them has.
+    entered, left : by step, what may be playing before and after it; None if it has not been reached.
+    done : by span, what is to be played.
+    told : by step, what is wrong with it.
+    forbidden : by what set them, the candidates that later commands have ruled out, and why.
+    ways : by step, how many of the ways to understand it have failed.
+    first_stop : by step, why the first of them has.
     """
 
     names: Names
     catalog: Catalog
-    statements: tuple[typed.Statement, ...]
+    steps: list[Step]
     source: Source
     start: str
-    states: list[flow.State] = field(default_factory=list)
-    done: dict[int, resolved.Statement] = field(default_factory=dict)
+    entered: list[flow.State | None] = field(default_factory=list)
+    left: list[flow.State | None] = field(default_factory=list)
+    done: dict[Span, resolved.Statement] = field(default_factory=dict)
     told: dict[int, Diagnostic] = field(default_factory=dict)
-    forbidden: dict[int, dict[str, dict[str, LeftOut]]] = field(default_factory=dict)
+    forbidden: dict[flow.Setter, dict[str, LeftOut]] = field(default_factory=dict)
     ways: dict[int, int] = field(default_factory=dict)
     first_stop: dict[int, flow.Stopped] = field(default_factory=dict)
     trial: _Trial | None = None
 
-    def run(self) -> tuple[resolved.Statement, ...]:
-        self.states = [flow.begin(self.names, self.start)]
-        while len(self.states) <= len(self.statements):
-            self._step(len(self.states) - 1)
-        return tuple(self.done[index] for index in sorted(self.done))
+    def run(self) -> None:
+        self.entered = [None] * len(self.steps)
+        self.left = [None] * len(self.steps)
+        number = 0
+        while number < len(self.steps):
+            self.entered[number] = self._before(number)
+            number = self._step(number)
 
-    def _step(self, index: int) -> None:
-        """Take the next statement, or go back to an earlier one that has to be narrowed."""
-        statement, state = self.statements[index], self.states[index]
+    def _before(self, number: int) -> flow.State:
+        """Return what may be playing before a step, as far as what comes before it has been reached."""
+        known = (flow.begin(self.names, self.start) if n == START else self.left[n] for n in self.steps[number].before)
+        return flow.joined([state for state in known if state is not None], self.names)
+
+    def _step(self, number: int) -> int:
+        """Take a step; return the number of the one to take next, which may be an earlier one."""
+        state = self.entered[number]
+        assert state is not None
+        statement = self.steps[number].statement
+        after: flow.State | int
         match statement:
+            case None:
+                after = state
             case typed.Command():
-                self._command(index, statement)
-            case typed.Wait(duration, span):
-                if duration.seconds is not None:
-                    self.done[index] = resolved.Wait(duration.seconds, span)
-                self.states.append(state)
+                after = self._command(number, statement, state)
+            case typed.Wait():
+                after = self._wait(statement, state)
             case typed.End():
-                self._end(index, statement)
+                after = self._end(number, statement, state)
             case _:
-                self.states.append(flow.unknown(self.names))
+                after = flow.unknown(self.names)
+        if isinstance(after, int):
+            return after
+        self.left[number] = after
+        return self._next(number)
+
+    def _next(self, number: int) -> int:
+        """Return the next step: where a loop begins, if what may be playing there has become more."""
+        heads = self.steps[number].again
+        return next((head for head in heads if self._before(head) != self.entered[head]), number + 1)
+
+    def _back_to(self, number: int) -> int:
+        """Return the step to begin again with when one has to be taken otherwise, and forget all from there."""
+        first = self.steps[number].outermost
+        for later in range(first, len(self.steps)):
+            if self.entered[later] is None:
+                break
+            self.entered[later] = self.left[later] = None
+        return first
 
     # --- commands ---
 
-    def _command(self, index: int, command: typed.Command) -> None:
-        way = command.ways[self.ways.get(index, 0)]
-        forbidden = self.forbidden.get(index, {})
-        library = (self.names, self.catalog)
-        outcome = flow.move(way.layers, self.states[index], index, forbidden, library)
+    def _command(self, number: int, command: typed.Command, state: flow.State) -> flow.State | int:
+        if number in self.told:
+            return flow.unknown(self.names)
+        way = command.ways[self.ways.get(number, 0)]
+        forbidden = {layer.graph: self.forbidden.get((number, layer.graph), {}) for layer in way.layers}
+        outcome = flow.move(way.layers, state, number, forbidden, (self.names, self.catalog))
         if isinstance(outcome, flow.Move):
-            self._accept(index, command, way, outcome)
-        elif isinstance(outcome, flow.Narrow):
-            self._narrow(index, command, way, outcome)
-        elif self.trial is not None and self.trial.index >= index:
-            self._take_back(self.trial)
-        else:
-            self._refuse(index, command, outcome)
+            self._accept(number, command, way, outcome)
+            return outcome.after
+        if isinstance(outcome, flow.Narrow):
+            return self._narrow(number, command, way, outcome)
+        if self.trial is not None:
+            return self._take_back(self.trial)
+        return self._refuse(number, command, outcome)
 
-    def _accept(self, index: int, command: typed.Command, way: typed.Layering, move: flow.Move) -> None:
+    def _accept(self, number: int, command: typed.Command, way: typed.Layering, move: flow.Move) -> None:
         spans = {layer.graph: layer.span for layer in way.layers}
         layers = tuple(
             resolved.Layer(graph, candidates, spans[graph], move.left_out[graph])
             for graph, candidates in move.candidates.items()
         )
-        seconds = None if command.duration is None else command.duration.seconds
-        self.done[index] = resolved.Command(layers, seconds, command.span)
-        self.states.append(move.after)
-        if self.trial is not None and self.trial.index == index:
+        self.done[command.span] = resolved.Command(layers, _duration(command), command.span)
+        if self.trial is not None and self.trial.number == number:
             self.trial = None
 
-    def _refuse(self, index: int, command: typed.Command, stopped: flow.Stopped) -> None:
+    def _refuse(self, number: int, command: typed.Command, stopped: flow.Stopped) -> int:
         """Try the next way to understand a command; if there is none, say why the first cannot be obeyed."""
-        first = self.first_stop.setdefault(index, stopped)
-        self.ways[index] = self.ways.get(index, 0) + 1
-        if self.ways[index] == len(command.ways):
-            self.told[index] = self._reason(first)
-            self.states.append(flow.unknown(self.names))
+        first = self.first_stop.setdefault(number, stopped)
+        self.ways[number] = self.ways.get(number, 0) + 1
+        if self.ways[number] == len(command.ways):
+            self.told[number] = self._reason(first)
+            self.done.pop(command.span, None)
+        return self._back_to(number)
 
-    def _narrow(self, index: int, command: typed.Command, way: typed.Layering, narrow: flow.Narrow) -> None:
-        """Take candidates away from an earlier command, and go back to it."""
-        setter, graph = narrow.setter
+    def _narrow(self, number: int, command: typed.Command, way: typed.Layering, narrow: flow.Narrow) -> int:
+        """Take candidates away from earlier commands, and go back to the first of them."""
         if self.trial is None:
-            stopped = self._as_stop(way, narrow)
-            self.trial = _Trial(index, stopped, self.states[:], dict(self.done), dict(self.told), self.forbidden)
+            self.trial = _Trial(number, self._as_stop(way, narrow))
         line, _ = self.source.position(command.span.start)
         because = f"what line {line} asks of `{narrow.graph}` cannot begin in it"
-        here = {motion: LeftOut(motion, "later command", because) for motion in sorted(narrow.without)}
-        of_setter = self.forbidden.get(setter, {})
-        of_graph = {**of_setter.get(graph, {}), **here}
-        self.forbidden = {**self.forbidden, setter: {**of_setter, graph: of_graph}}
-        del self.states[setter + 1 :]
+        for setter, motions in narrow.without.items():
+            here = self.forbidden.setdefault(setter, {})
+            for motion in sorted(motions - here.keys()):
+                here[motion] = LeftOut(motion, "later command", because)
+                self.trial.forbidden.append((setter, motion))
+        return self._back_to(min(setter for setter, _ in narrow.without))
 
     def _as_stop(self, way: typed.Layering, narrow: flow.Narrow) -> flow.Stopped:
-        """Return what stops a command if the earlier one cannot be narrowed for it."""
+        """Return what stops a command if the earlier ones cannot be narrowed for it."""
         span = next(layer.span for layer in way.layers if layer.graph == narrow.graph)
-        above = narrow.setter[1]
-        motions = tuple(motion for motion in self.names.motions(above) if motion in narrow.without)
+        setter = min(narrow.without)
+        motions = tuple(motion for motion in self.names.motions(setter[1]) if motion in narrow.without[setter])
         by_rule_1 = not any(motion in self.names.motion_set(narrow.graph) for motion in motions)
-        return flow.Stopped(narrow.graph, span, above, motions, by_rule_1, narrow.setter, within=False)
+        return flow.Stopped(narrow.graph, span, setter[1], motions, by_rule_1, setter, within=False)
 
-    def _take_back(self, trial: _Trial) -> None:
+    def _take_back(self, trial: _Trial) -> int:
         """Undo a narrowing that leaves nothing to an earlier command: the later one is refused."""
-        self.states, self.done, self.told = trial.states, trial.done, trial.told
-        self.forbidden, self.trial = trial.forbidden, None
-        command = self.statements[trial.index]
+        self.trial = None
+        first = trial.number
+        for setter, motion in trial.forbidden:
+            del self.forbidden[setter][motion]
+            first = min(first, setter[0])
+        command = self.steps[trial.number].statement
         assert isinstance(command, typed.Command)
-        self._refuse(trial.index, command, trial.stopped)
+        return min(self._refuse(trial.number, command, trial.stopped), self._back_to(first))
 
-    # --- ends ---
+    # --- other statements ---
 
-    def _end(self, index: int, end: typed.End) -> None:
-        state, graph = self.states[index], end.graph
-        self.states.append(state if graph == self.names.root else flow.ended(state, graph, self.names))
+    def _wait(self, wait: typed.Wait, state: flow.State) -> flow.State:
+        if wait.duration.seconds is not None:
+            self.done[wait.span] = resolved.Wait(resolved.Seconds(wait.duration.seconds), wait.span)
+        elif wait.duration.cycles is not None:
+            self.done[wait.span] = resolved.Wait(resolved.Cycles(wait.duration.cycles), wait.span)
+        return state
+
+    def _end(self, number: int, end: typed.End, state: flow.State) -> flow.State:
+        graph = end.graph
         if graph == self.names.root:
             advice = "name what it shall do next, or a part to give back"
             message = f"`{graph}` is the whole body: there is nothing to give it back to"
-            self.told[index] = Diagnostic("MS042", message, end.span, advice)
-            return
-        self.done[index] = resolved.End(graph, end.span)
-        self.told.pop(index, None)
+            self.told[number] = Diagnostic("MS042", message, end.span, advice)
+            return state
+        self.done[end.span] = resolved.End(graph, end.span)
+        self.told.pop(number, None)
         part = state.parts.get(graph)
         if state.certain and (part is None or not part.alone):
             message = f"`{graph}` does not run on its own here, so there is nothing to end"
-            self.told[index] = Diagnostic("MS043", message, end.span, fixes=(Fix(end.span, "", safe=False),))
+            self.told[number] = Diagnostic("MS043", message, end.span, fixes=(Fix(end.span, "", safe=False),))
+        return flow.ended(state, graph, self.names)
 
     # --- what to say ---
 
@@ -229,6 +288,21 @@ class _Resolver:
     def _origin(self, stopped: flow.Stopped) -> Iterator[Note]:
         """Yield where the motions come from that stand in the way, if it is not this command itself."""
         if stopped.setter is not None:
-            yield Note(f"`{stopped.above}` is set here", self.statements[stopped.setter[0]].span)
+            yield Note(f"`{stopped.above}` is set here", self._span(stopped.setter[0]))
         elif not stopped.within:
             yield Note(f"the character starts in `{self.start}`")
+
+    def _span(self, number: int) -> Span:
+        statement = self.steps[number].statement
+        assert statement is not None, "nothing is set where a loop begins"
+        return statement.span
+
+
+def _duration(command: typed.Command) -> resolved.Duration | None:
+    if command.once:
+        return resolved.Once()
+    if command.duration is None:
+        return None
+    if command.duration.cycles is not None:
+        return resolved.Cycles(command.duration.cycles)
+    return None if command.duration.seconds is None else resolved.Seconds(command.duration.seconds)

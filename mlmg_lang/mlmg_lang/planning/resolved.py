@@ -40,25 +40,47 @@ class Layer:
 
 
 @dataclass(frozen=True, slots=True)
+class Seconds:
+    """So much time."""
+
+    number: float
+
+
+@dataclass(frozen=True, slots=True)
+class Cycles:
+    """So many times the length of a motion's clip."""
+
+    number: float
+
+
+@dataclass(frozen=True, slots=True)
+class Once:
+    """From a motion's first frame to its last exit."""
+
+
+Duration: TypeAlias = Seconds | Cycles | Once
+
+
+@dataclass(frozen=True, slots=True)
 class Command:
-    """Bring every layer to one of its candidates, then let `duration_s` pass.
+    """Bring every layer to one of its candidates, then let time pass.
 
     Attributes
     ----------
     layers : highest graph first; the first is the topmost named.
-    duration_s : seconds from when all layers have arrived to the next statement; None without `for`.
+    duration : from when all layers have arrived to the next statement; None without `for` and `once`.
     """
 
     layers: tuple[Layer, ...]
-    duration_s: float | None
+    duration: Duration | None
     span: Span
 
 
 @dataclass(frozen=True, slots=True)
 class Wait:
-    """Let time pass in what is playing."""
+    """Let time pass in what is playing; cycles are those of the topmost graph of the command before."""
 
-    duration_s: float
+    duration: Seconds | Cycles
     span: Span
 
 
@@ -70,7 +92,33 @@ class End:
     span: Span
 
 
-Statement: TypeAlias = Command | Wait | End
+@dataclass(frozen=True, slots=True)
+class Repeat:
+    """Statements that are executed several times."""
+
+    count: int
+    body: tuple[Statement, ...]
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class Branch:
+    """Statements of which it is drawn whether they are executed, against those of other branches."""
+
+    weight: int
+    body: tuple[Statement, ...]
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class Choose:
+    """One branch is drawn by its weight and executed."""
+
+    branches: tuple[Branch, ...]
+    span: Span
+
+
+Statement: TypeAlias = Command | Wait | End | Repeat | Choose
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,7 +128,7 @@ class ResolvedPlan:
     Attributes
     ----------
     start : the motion of the root graph that the character starts in, at its first frame.
-    statements : in the order in which they are executed.
+    statements : in the order of the text, which is that of execution but for `repeat` and `choose`.
     """
 
     source: Source

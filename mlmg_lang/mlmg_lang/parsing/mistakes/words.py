@@ -54,7 +54,7 @@ def _respelled(stuck: Stuck, changed: dict[int, Token], span: Span) -> str:
     """Return the text of a span with some of its tokens spelt as changed."""
     pieces, end = [], span.start
     for token in changed.values():
-        pieces += [stuck.source.text[end : token.span.start], token.text]
+        pieces += [stuck.source.slice(Span(end, token.span.start)), token.text]
         end = token.span.end
     return "".join(pieces)
 

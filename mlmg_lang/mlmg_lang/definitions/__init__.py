@@ -1,0 +1,1 @@
+"""Definitions: where they come from, and what stands where one is used."""

@@ -1,0 +1,289 @@
+"""A syntax tree with uses of definitions -> one without: what a definition says stands in parentheses in their place.
+
+Nodes keep their spans: what comes out of a definition is found where that is written.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, replace
+from typing import TypeAlias
+
+from mlmg_lang.definitions.gather import Definitions
+from mlmg_lang.definitions.parameters import Kind, Signature, references
+from mlmg_lang.diagnostics import Diagnostic, Fix, Note
+from mlmg_lang.parsing import syntax
+from mlmg_lang.parsing.layout import MAX_DEPTH
+from mlmg_lang.source import Span
+from mlmg_lang.spelling import listed, nearest, normal
+
+MAX_NODES = 20_000
+"""So large may one command become."""
+
+Values: TypeAlias = Mapping[str, "syntax.Motion | syntax.Quantity"]
+
+
+@dataclass(frozen=True, slots=True)
+class Expanded:
+    """A script without definitions, with what is wrong with how they are used."""
+
+    script: syntax.Script
+    diagnostics: tuple[Diagnostic, ...]
+
+
+def expand(script: syntax.Script, definitions: Definitions) -> Expanded:
+    """Return a script with what its definitions say in place of their names; where that fails, `Broken` stands."""
+    if not definitions.lets:
+        items = tuple(item for item in script.items if not isinstance(item, syntax.Use))
+        return Expanded(script if len(items) == len(script.items) else replace(script, items=items), ())
+    expander = _Expander(definitions)
+    items = expander.body(script.items)
+    return Expanded(replace(script, items=items), (*expander.diagnostics, *_unused(script, definitions)))
+
+
+def _unused(script: syntax.Script, definitions: Definitions) -> Iterator[Diagnostic]:
+    """Yield the definitions of a script that nothing in it uses."""
+    used: set[str] = set()
+    pending: list[syntax.Item] = [item for item in script.items if not isinstance(item, syntax.Let | syntax.Use)]
+    for item in pending:
+        for node in syntax.walk(item):
+            if isinstance(node, syntax.Reference | syntax.Call):
+                used.add(normal(node.name.text))
+    names = list(used)
+    while names:
+        let = definitions.lets.get(names.pop())
+        fresh = {normal(name.text) for name in references(let)} - used if let else set()
+        used |= fresh
+        names += fresh
+    for item in script.items:
+        if isinstance(item, syntax.Let) and item.name.sound and normal(item.name.text) not in used:
+            message = f"`{item.name.text}` is defined, but not used"
+            yield Diagnostic("MS054", message, item.name.span, "take it out, or use it")
+
+
+class _Failed(Exception):
+    """What stands here cannot be expanded, and that has been reported."""
+
+
+@dataclass(slots=True)
+class _Expander:
+    definitions: Definitions
+    diagnostics: list[Diagnostic] = field(default_factory=list)
+    nodes: int = 0
+
+    # --- statements ---
+
+    def body(self, items: tuple[syntax.Item, ...]) -> tuple[syntax.Item, ...]:
+        return tuple(self._item(item) for item in items if not isinstance(item, syntax.Let | syntax.Use))
+
+    def _item(self, item: syntax.Item) -> syntax.Item:
+        match item:
+            case syntax.Command():
+                return self._command(item)
+            case syntax.Repeat(body=body):
+                return replace(item, body=self.body(body))
+            case syntax.Choose(branches=branches):
+                return replace(item, branches=tuple(replace(one, body=self.body(one.body)) for one in branches))
+        return item
+
+    def _command(self, command: syntax.Command) -> syntax.Item:
+        self.nodes = 0
+        try:
+            whole = self._whole(command)
+            if whole is not None:
+                return whole
+            motion = self._motion(command.motion, {}, 0)
+        except _Failed:
+            return syntax.Broken(command.span)
+        return command if motion is command.motion else replace(command, motion=motion)
+
+    def _whole(self, command: syntax.Command) -> syntax.Command | None:
+        """Return what a command does that is nothing but the use of a definition that says how long."""
+        motion = command.motion
+        if not isinstance(motion, syntax.Reference | syntax.Call):
+            return None
+        let = self.definitions.find(motion.name)
+        signature = self._signature(let)
+        if let is None or signature is None or not signature.lasts:
+            return None
+        if command.duration is not None or command.once is not None:
+            span = command.once or (command.duration.span if command.duration is not None else command.span)
+            fix = Fix(Span(motion.span.end, span.end), "", safe=False)
+            message = f"`{let.name.text}` says itself how long it lasts"
+            note = Note("it is defined here", let.name.span)
+            raise self._fail(Diagnostic("MS057", message, span, "take this out", (note,), (fix,)))
+        values = self._values(motion, let, signature, {}, 0)
+        duration = self._amount(let.command.duration, values)
+        body = self._motion(let.command.motion, values, 1)
+        return syntax.Command(body, duration, let.command.once, command.span)
+
+    def _amount(self, amount: syntax.Amount | None, values: Values) -> syntax.Amount | None:
+        if isinstance(amount, syntax.Name):
+            value = values.get(normal(amount.text))
+            return value if isinstance(value, syntax.Quantity) else amount
+        return amount
+
+    # --- motion expressions ---
+
+    def _motion(self, motion: syntax.Motion, values: Values, depth: int) -> syntax.Motion:
+        """Return an expression with all that is defined put in; the very same if nothing is."""
+        self.nodes += 1
+        if self.nodes > MAX_NODES or depth > 2 * MAX_DEPTH:
+            message = "what is defined here becomes too large when it is put in"
+            raise self._fail(Diagnostic("MS048", message, motion.span, "say it with fewer definitions"))
+        match motion:
+            case syntax.Reference(name, span):
+                value = values.get(normal(name.text))
+                return self._used(motion, values, depth) if value is None else _as_motion(value, span)
+            case syntax.Call():
+                return self._called(motion, values, depth)
+            case syntax.Qualified():
+                return self._qualified(motion, values, depth)
+            case syntax.Group(inner) | syntax.Not(inner):
+                put_in = self._motion(inner, values, depth + 1)
+                return motion if put_in is inner else type(motion)(put_in, motion.span)
+        operands = tuple(self._motion(operand, values, depth + 1) for operand in motion.operands)
+        return motion if operands == motion.operands else replace(motion, operands=operands)
+
+    def _qualified(self, motion: syntax.Qualified, values: Values, depth: int) -> syntax.Motion:
+        put_in = self._motion(motion.motion, values, depth + 1)
+        if put_in is motion.motion:
+            return motion
+        if isinstance(put_in, syntax.Reference):
+            return replace(motion, motion=put_in)
+        return syntax.Call(motion.graph, (syntax.Argument(None, put_in, motion.motion.span),), motion.span)
+
+    def _called(self, call: syntax.Call, values: Values, depth: int) -> syntax.Motion:
+        if self.definitions.find(call.name) is not None:
+            return self._used(call, values, depth)
+        arguments = tuple(self._argument(argument, values, depth) for argument in call.arguments)
+        return call if arguments == call.arguments else replace(call, arguments=arguments)
+
+    def _argument(self, argument: syntax.Argument, values: Values, depth: int) -> syntax.Argument:
+        if isinstance(argument.value, syntax.Quantity):
+            return argument
+        return replace(argument, value=self._motion(argument.value, values, depth + 1))
+
+    def _used(self, use: syntax.Reference | syntax.Call, values: Values, depth: int) -> syntax.Motion:
+        """Return what a definition says, in parentheses; other names stay as they are."""
+        let = self.definitions.find(use.name)
+        if let is None:
+            return use
+        signature = self._signature(let)
+        if signature is None:
+            raise _Failed
+        if signature.lasts:
+            message = (
+                f"`{let.name.text}` says how long it lasts, so it is a whole statement and cannot stand in another"
+            )
+            note = Note("it is defined here", let.name.span)
+            advice = "define the motion without `for` and `once`, and say here how long"
+            raise self._fail(Diagnostic("MS057", message, use.span, advice, (note,)))
+        inside = self._values(use, let, signature, values, depth)
+        return syntax.Group(self._motion(let.command.motion, inside, depth + 1), use.span)
+
+    def _signature(self, let: syntax.Let | None) -> Signature | None:
+        return None if let is None else self.definitions.signatures.get(normal(let.name.text))
+
+    # --- arguments ---
+
+    def _values(
+        self,
+        use: syntax.Reference | syntax.Call,
+        let: syntax.Let,
+        signature: Signature,
+        outside: Values,
+        depth: int,
+    ) -> dict[str, syntax.Motion | syntax.Quantity]:
+        """Return what the parameters of a definition stand for in one use of it."""
+        arguments = use.arguments if isinstance(use, syntax.Call) else ()
+        given = self._given(use, let, arguments)
+        values: dict[str, syntax.Motion | syntax.Quantity] = {}
+        for parameter in let.parameters or ():
+            name = normal(parameter.name.text)
+            argument = given.get(name)
+            if argument is not None:
+                values[name] = self._value(argument, name, let, signature.kinds[name], outside, depth)
+            elif parameter.default is not None:
+                default = parameter.default
+                if not isinstance(default, syntax.Quantity):
+                    default = self._motion(default, {}, depth + 1)
+                values[name] = default
+        missing = [p.name.text for p in let.parameters or () if normal(p.name.text) not in values]
+        if missing:
+            raise self._misfit(use.span, f"`{let.name.text}` is used without its {listed(missing)}", let)
+        return values
+
+    def _given(
+        self, use: syntax.Reference | syntax.Call, let: syntax.Let, arguments: tuple[syntax.Argument, ...]
+    ) -> dict[str, syntax.Argument]:
+        """Return the arguments of a use by the parameters that they are for."""
+        names = [parameter.name.text for parameter in let.parameters or ()]
+        if isinstance(use, syntax.Call) and let.parameters is None:
+            raise self._misfit(use.span, f"`{let.name.text}` takes no arguments", let)
+        given: dict[str, syntax.Argument] = {}
+        named = False
+        for at, argument in enumerate(arguments):
+            named = named or argument.name is not None
+            if argument.name is None and named:
+                raise self._misfit(argument.span, "an argument without a name stands before those with one", let)
+            if argument.name is None and at >= len(names):
+                many = f"{len(names)} argument{'' if len(names) == 1 else 's'}" if names else "no arguments"
+                raise self._misfit(argument.span, f"`{let.name.text}` takes {many}", let)
+            written = names[at] if argument.name is None else argument.name.text
+            if normal(written) not in map(normal, names):
+                near = nearest(written, names, limit=1) or names
+                assert argument.name is not None
+                message = f"`{let.name.text}` has no parameter `{written}`"
+                raise self._misfit(argument.name.span, message, let, f"it has {listed(near)}" if near else None)
+            if normal(written) in given:
+                raise self._misfit(argument.span, f"`{written}` is given twice", let)
+            given[normal(written)] = argument
+        return given
+
+    def _value(
+        self,
+        argument: syntax.Argument,
+        name: str,
+        let: syntax.Let,
+        kind: Kind | None,
+        outside: Values,
+        depth: int,
+    ) -> syntax.Motion | syntax.Quantity:
+        value = argument.value
+        if isinstance(value, syntax.Reference) and isinstance(outside.get(normal(value.name.text)), syntax.Quantity):
+            value = outside[normal(value.name.text)]
+        is_duration = isinstance(value, syntax.Quantity)
+        if kind is not None and is_duration != (kind is Kind.DURATION):
+            found = Kind.DURATION if is_duration else Kind.MOTION
+            message = f"`{name}` of `{let.name.text}` is a {kind}; this is a {found}"
+            example = "such as `2 sec`" if kind is Kind.DURATION else "such as a tag"
+            note = Note("it is defined here", let.name.span)
+            raise self._fail(Diagnostic("MS056", message, argument.span, f"write a {kind}, {example}", (note,)))
+        if isinstance(value, syntax.Quantity):
+            return value
+        return self._motion(value, outside, depth + 1)
+
+    def _misfit(self, span: Span, message: str, let: syntax.Let, advice: str | None = None) -> _Failed:
+        takes = ", ".join(_shown(parameter) for parameter in let.parameters or ())
+        written = f"{let.name.text}({takes})" if let.parameters is not None else let.name.text
+        note = Note(f"it is defined here as `{written}`", let.name.span)
+        return self._fail(Diagnostic("MS055", message, span, advice, (note,)))
+
+    def _fail(self, diagnostic: Diagnostic) -> _Failed:
+        self.diagnostics.append(diagnostic)
+        return _Failed()
+
+
+def _as_motion(value: syntax.Motion | syntax.Quantity, span: Span) -> syntax.Motion:
+    """Return the value of a parameter where it is used, in parentheses if it is more than a name."""
+    assert not isinstance(value, syntax.Quantity), "kinds are checked where arguments are given"
+    return value if isinstance(value, syntax.Reference | syntax.Group) else syntax.Group(value, span)
+
+
+def _shown(parameter: syntax.Parameter) -> str:
+    """Return a parameter as it is written, its default as far as that is short."""
+    default = parameter.default
+    if isinstance(default, syntax.Quantity):
+        return f"{parameter.name.text} = {default.number} {default.unit}"
+    return f"{parameter.name.text} = ..." if default is not None else parameter.name.text

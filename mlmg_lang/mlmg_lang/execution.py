@@ -1,0 +1,40 @@
+"""A resolved plan -> its statements one after the other, as they are executed: repeated, and drawn where there is choice."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from itertools import accumulate
+from random import Random
+from typing import TypeAlias
+
+from mlmg_lang.planning.resolved import Branch, Choose, Command, End, Repeat, ResolvedPlan, Statement, Wait
+
+Step: TypeAlias = Command | Wait | End
+
+
+def executed(plan: ResolvedPlan, seed: int) -> Iterator[Step]:
+    """Yield what is executed, in order; the same plan and seed always give the same.
+
+    Parameters
+    ----------
+    seed : of the stream of random numbers of which each `choose` takes one whenever it is executed.
+    """
+    yield from _body(plan.statements, Random(seed))
+
+
+def _body(statements: Iterable[Statement], draws: Random) -> Iterator[Step]:
+    for statement in statements:
+        match statement:
+            case Repeat(count, body):
+                for _ in range(count):
+                    yield from _body(body, draws)
+            case Choose(branches):
+                yield from _body(_drawn(branches, draws.random()).body, draws)
+            case _:
+                yield statement
+
+
+def _drawn(branches: tuple[Branch, ...], share: float) -> Branch:
+    """Return the branch at a share, from 0 to below 1, of the sum of all weights."""
+    sums = list(accumulate(branch.weight for branch in branches))
+    return next(branch for branch, end in zip(branches, sums, strict=True) if share * sums[-1] < end)
