@@ -2,6 +2,7 @@
 
 import io
 import json
+import re
 import sys
 import webbrowser
 from types import SimpleNamespace
@@ -9,7 +10,7 @@ from types import SimpleNamespace
 import pytest
 
 from mlmg_lang.commands.mlmg import main
-from mlmg_runtime.view import movie
+from mlmg_runtime.view import html, movie, stills
 
 BVH = """HIERARCHY
 ROOT Hips
@@ -37,6 +38,11 @@ REPORT = {
 }
 
 
+class Terminal(io.StringIO):
+    def isatty(self):
+        return True
+
+
 @pytest.fixture
 def folder(tmp_path, monkeypatch):
     """Stand in a folder with a motion in it."""
@@ -49,6 +55,11 @@ def folder(tmp_path, monkeypatch):
 
 def view(*words):
     return main(["view", *words])
+
+
+def data_of(page):
+    text = page.read_text(encoding="utf-8")
+    return json.loads(re.search(r'<script id="data" type="application/json">(.*?)</script>', text, re.DOTALL)[1])
 
 
 def kind(path):
@@ -73,7 +84,8 @@ def test_an_unknown_ending_is_an_error_that_lists_the_known(folder, capsys):
     ("words", "message"),
     [
         (["stroll.bvh", "stroll.bvh", "-o", "x.png"], "x.png: a .png shows one motion, found 2; .html shows several"),
-        (["stroll.bvh", "-o", "x.html", "--frames", "1,2"], "--frames is for .png and .gif; "),
+        (["stroll.bvh", "-o", "x.html", "--frames", "1,2"], "the player shows the frames between two: --frames 90:240"),
+        (["stroll.bvh", "-o", "x.png", "--fps", "5"], "--fps is for the player and for .gif; "),
         (["stroll.bvh", "-o", "x.gif", "--frames", "1,2"], "a .gif shows the frames between two: --frames 90:240"),
         (["stroll.bvh", "-o", "x.png", "--frames", "3,12"], "frame 12: stroll has the frames 0 to 11"),
         (["stroll.bvh", "-o", "x.gif", "--frames", "7:7"], "no frame is chosen: stroll has the frames 0 to 11"),
@@ -147,6 +159,62 @@ def test_other_json_beside_the_motion_does_no_harm(folder, capsys, content, said
     (folder / "stroll.json").write_text(content)
     assert view("stroll.bvh", "-o", "x.html") == 0
     assert capsys.readouterr().err == said
+
+
+def test_a_part_of_a_motion_is_shown_with_its_own_numbers(folder):
+    (folder / "stroll.json").write_text(json.dumps(REPORT))
+    assert view("stroll.bvh", "-o", "x.html", "--frames", "3:0.3s", "--fps", "16") == 0
+    (scene,) = data_of(folder / "x.html")["scenes"]
+    assert (scene["firstFrame"], scene["frameStep"], scene["nFrames"]) == (3, 2, 3)
+    assert scene["commands"] == [{"text": "WALK for 1 sec", "begin": 0, "arrive": 0, "end": 3}]
+    assert scene["frameTime"] == pytest.approx(2 / 30, abs=1e-6)
+
+
+def test_a_motion_too_long_for_a_page_is_shown_in_fewer_frames_and_says_so(folder, capsys, monkeypatch):
+    monkeypatch.setattr(html, "most_frames", lambda joints: 10)
+    assert view("stroll.bvh", "-o", "x.html") == 0
+    assert data_of(folder / "x.html")["scenes"][0]["nFrames"] == 6
+    assert capsys.readouterr().err == "mlmg view: stroll: 6 of its 12 frames are shown, 15 a second\n"
+    assert view("stroll.bvh", "stroll.bvh", "-o", "x.html") == 0
+    assert [scene["nFrames"] for scene in data_of(folder / "x.html")["scenes"]] == [4, 4]
+
+
+def test_a_motion_far_too_long_for_a_page_is_refused_with_what_to_write_instead(folder, capsys, monkeypatch):
+    monkeypatch.setattr(html, "most_frames", lambda joints: 3)
+    assert view("stroll.bvh", "-o", "x.html") == 2
+    assert "--frames 0:3 shows a part, --fps 7.5 all of it" in capsys.readouterr().err
+    assert not (folder / "x.html").exists()
+    for words in (["--frames", "0:3"], ["--fps", "7.5"]):
+        assert view("stroll.bvh", "-o", "x.html", *words) == 0
+        assert data_of(folder / "x.html")["scenes"][0]["nFrames"] == 3
+
+
+def test_the_moments_of_a_picture_are_those_of_the_commands(folder, monkeypatch):
+    seen = []
+    monkeypatch.setattr(stills, "write_png", lambda scene, path, frames, progress: seen.append(frames))
+    commands = [{"text": "A", "begin": 0, "arrive": 2, "end": 5}, {"text": "B", "begin": 5, "arrive": 9, "end": 12}]
+    (folder / "stroll.json").write_text(json.dumps({**REPORT, "commands": commands}))
+    assert view("stroll.bvh", "-o", "x.png") == 0
+    assert {3, 10} < set(seen[0])
+
+
+def test_a_gif_has_as_many_pictures_a_second_as_it_is_told(folder):
+    from PIL import Image
+
+    for fps, n_pictures in (("5", 2), ("10", 4), ("100", 12)):
+        assert view("stroll.bvh", "-o", "x.gif", "--fps", fps) == 0
+        with Image.open(folder / "x.gif") as image:
+            assert image.n_frames == n_pictures
+
+
+@pytest.mark.parametrize(("output", "stages"), [("x.gif", "reading drawing"), ("x.png", "reading drawing")])
+def test_on_a_terminal_it_is_told_how_far_the_work_is(folder, monkeypatch, output, stages):
+    terminal = Terminal()
+    monkeypatch.setattr(sys, "stderr", terminal)
+    assert view("stroll.bvh", "-o", output) == 0
+    told = [line.split(" ")[0] for line in terminal.getvalue().split("\r") if line.strip()]
+    assert list(dict.fromkeys(told)) == stages.split()
+    assert terminal.getvalue().endswith(" \r")
 
 
 def test_frames_choose_the_moments_of_a_picture(folder):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import argparse
 import os
 import sys
 import time
@@ -88,6 +89,23 @@ def refuse_unwritable(outputs: Iterable[str | Path | None]) -> None:
     for path in outputs:
         if path is not None and str(path) != "-":
             check_output(path)
+
+
+def frame_rate(text: str) -> float:
+    """Return frames a second as an option has them.
+
+    Raises
+    ------
+    argparse.ArgumentTypeError
+        If it is no sensible number.
+    """
+    try:
+        rate = float(text)
+    except ValueError:
+        rate = 0.0
+    if not 0 < rate <= 10000:
+        raise argparse.ArgumentTypeError(f"expected a number of frames a second, found {text!r}")
+    return rate
 
 
 def tell(message: str) -> None:

@@ -14,6 +14,7 @@ from mlmg_lang.commands.console import (
     WRONG_CONTENT,
     ProgressLine,
     UsageError,
+    frame_rate,
     one_thread_a_product,
     refuse_overwriting,
     refuse_unwritable,
@@ -66,22 +67,12 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--start", metavar="MOTION", help="the motion of the whole body to start in")
     parser.add_argument("--seed", metavar="N", type=int, default=0, help="for what is drawn by chance (0)")
     parser.add_argument("--report", metavar="R.json", help="write what plays when; - writes standard output")
-    parser.add_argument("--fps", metavar="N", type=_rate, help="frames a second of the motion; the library's")
+    parser.add_argument("--fps", metavar="N", type=frame_rate, help="frames a second of the motion; the library's")
     parser.add_argument(
         "--blend", choices=("c1", "linear"), help="how transitions are weighted; as the library is configured"
     )
     parser.add_argument("--version", action=VersionAction, nargs=0, help="show the version and leave")
     return parser
-
-
-def _rate(text: str) -> float:
-    try:
-        rate = float(text)
-    except ValueError:
-        rate = 0.0
-    if not 0 < rate <= 10000:
-        raise argparse.ArgumentTypeError(f"expected a number of frames a second, found {text!r}")
-    return rate
 
 
 def _run(arguments: argparse.Namespace) -> int:

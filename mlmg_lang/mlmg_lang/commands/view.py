@@ -7,6 +7,7 @@ examples:
   mlmg view stroll.bvh --report stroll.json -o stroll.png
   mlmg view stroll.bvh -o step.png --frames 10,25,40    these moments
   mlmg view stroll.bvh -o step.gif --frames 90:240      the frames from 90 up to, without, 240
+  mlmg view day.bvh --frames 600s:660s --fps 10         a minute of a long motion, in fewer frames
   mlmgc - -o - < stroll.ms | mlmg view -                standard input
 
 The report of mlmgc --report says what plays when; stroll.json beside stroll.bvh is used unasked.
@@ -21,24 +22,46 @@ import sys
 import tempfile
 from collections import Counter
 from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING
 
-from mlmg_lang.commands.console import DONE, WRONG_USAGE, ProgressLine, tell
+from mlmg_lang.commands.console import DONE, ProgressLine, UsageError, frame_rate, refuse_unwritable, tell
+from mlmg_lang.commands.view_frames import Frames, Part, at_most_fps, frames_at, parse_frames, thinned
 
 if TYPE_CHECKING:
     from mlmg_runtime.bvh import Bvh
     from mlmg_runtime.view.captions import Story
     from mlmg_runtime.view.scene import Scene
 
-Frames: TypeAlias = tuple[int, ...] | slice
-
 _ENDINGS = (".html", ".png", ".gif")
-_STANDARD_INPUT = "-"
+_STANDARD_INPUT, _PIPED = "-", "standard input"
 
 
-class _UsageError(Exception):
-    """Arguments that do not fit together, or not the files."""
+@dataclass(frozen=True, slots=True, eq=False)
+class _Motion:
+    """A motion that is to be shown, with what its report tells; `path` is as it was typed."""
+
+    path: str
+    name: str
+    bvh: Bvh
+    up: str
+    story: Story
+
+    @property
+    def n_frames(self) -> int:
+        return len(self.bvh.frames)
+
+    def part(self, frames: Frames | None) -> range:
+        """Return the frames of the part that is asked for; of the whole motion if none is."""
+        part = frames if isinstance(frames, Part) else Part()
+        return part.of(self.name, self.n_frames, self.bvh.frame_time_s)
+
+    def scene(self, frames: range) -> Scene:
+        """Return some frames, ready to be drawn."""
+        from mlmg_runtime.view.scene import scene_from_bvh
+
+        return scene_from_bvh(self.bvh, self.name, up=self.up, story=self.story, frames=frames)
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -58,57 +81,60 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--frames",
         metavar="F",
-        type=_frames,
-        help="the moments of a PNG (10,25,40), the part of a GIF (90:240)",
+        type=parse_frames,
+        help="a part (90:240, or 3s:8s in seconds); for a PNG also moments (10,25,40)",
+    )
+    parser.add_argument(
+        "--fps",
+        metavar="N",
+        type=frame_rate,
+        help="the most frames a second: of a player the motion's, of a GIF 15",
     )
     parser.add_argument("--no-open", action="store_true", help="write the player, print where it is, open no browser")
 
 
 def run(arguments: argparse.Namespace) -> int:
     """Show motions, or write pictures of them."""
+    _check(arguments)
+    refuse_unwritable([arguments.output])
+    progress = ProgressLine()
     try:
-        _check(arguments)
-        scenes = _scenes(arguments.motions, arguments.report, arguments.up)
-        _show(scenes, arguments)
-    except _UsageError as error:
-        tell(f"mlmg view: error: {error}")
-        return WRONG_USAGE
+        motions = _motions(arguments, progress)
+        ending, output = _ending(arguments.output), arguments.output
+        if ending == ".html":
+            _show_player(motions, arguments)
+        elif ending == ".png":
+            _write_png(motions[0], output, arguments.frames, progress)
+        else:
+            _write_gif(motions[0], output, arguments, progress)
+    finally:
+        progress.clear()
     return DONE
 
 
-def _frames(text: str) -> Frames:
-    try:
-        if ":" in text:
-            begin, end = (int(part) if part else None for part in text.split(":"))
-            chosen: Frames = slice(begin, end)
-        else:
-            chosen = tuple(int(part) for part in text.split(","))
-    except ValueError:
-        raise argparse.ArgumentTypeError(f"expected frames such as 10,25,40 or 90:240, found {text!r}") from None
-    numbers = (chosen.start, chosen.stop) if isinstance(chosen, slice) else chosen
-    if any(number is not None and number < 0 for number in numbers):
-        raise argparse.ArgumentTypeError(f"frames count from 0, found {text!r}")
-    return chosen
-
-
 def _check(arguments: argparse.Namespace) -> None:
-    """Raise `_UsageError` for what can be known to be wrong before a file is opened."""
+    """Raise `UsageError` for what can be known to be wrong before a file is opened."""
     ending = _ending(arguments.output)
     if ending not in _ENDINGS:
-        raise _UsageError(
+        raise UsageError(
             f"{arguments.output}: expected a name that ends in {_listed(_ENDINGS)}, found {ending or 'none'}"
         )
     n_motions, n_reports = len(arguments.motions), len(arguments.report)
     if ending != ".html" and n_motions > 1:
-        raise _UsageError(f"{arguments.output}: a {ending} shows one motion, found {n_motions}; .html shows several")
+        raise UsageError(f"{arguments.output}: a {ending} shows one motion, found {n_motions}; .html shows several")
     if n_reports not in (0, n_motions):
-        raise _UsageError(f"expected a --report for each of {n_motions} motions, found {n_reports}")
-    if ending == ".html" and arguments.frames is not None:
-        raise _UsageError("--frames is for .png and .gif; the player has all frames, and opens at one with #frame=90")
-    if ending == ".gif" and isinstance(arguments.frames, tuple):
-        raise _UsageError("a .gif shows the frames between two: --frames 90:240")
+        raise UsageError(f"expected a --report for each of {n_motions} motions, found {n_reports}")
+    if ending != ".png" and isinstance(arguments.frames, tuple):
+        shows = "a .gif" if ending == ".gif" else "the player"
+        raise UsageError(f"{shows} shows the frames between two: --frames 90:240")
+    if ending == ".png" and arguments.fps is not None:
+        raise UsageError("--fps is for the player and for .gif; a .png shows moments: --frames 10,25,40")
     if arguments.motions.count(_STANDARD_INPUT) > 1:
-        raise _UsageError("standard input holds one motion; - stands there twice")
+        raise UsageError("standard input holds one motion; - stands there twice")
+    if ending != ".html":
+        from mlmg_runtime.view.pillow import need_pillow
+
+        need_pillow()
 
 
 def _ending(output: Path | None) -> str:
@@ -119,30 +145,33 @@ def _listed(words: Sequence[str]) -> str:
     return f"{', '.join(words[:-1])} or {words[-1]}"
 
 
-def _scenes(motions: Sequence[str], reports: Sequence[str], up: str | None) -> list[Scene]:
-    from mlmg_runtime.view.scene import scene_from_bvh
+def _motions(arguments: argparse.Namespace, progress: ProgressLine) -> list[_Motion]:
+    from mlmg_runtime.view.captions import Story
 
-    stems = Counter(Path(motion).stem for motion in motions)
-    scenes = []
-    for index, motion in enumerate(motions):
-        bvh = _read(motion)
-        story = _story(motion, reports[index] if reports else None, bvh.frames.shape[0])
-        stem = Path(motion).stem
-        name = "standard input" if motion == _STANDARD_INPUT else stem if stems[stem] == 1 else motion
+    paths = arguments.motions
+    stems = Counter(Path(path).stem for path in paths)
+    motions = []
+    for index, path in enumerate(paths):
+        stem = Path(path).stem
+        name = _PIPED if path == _STANDARD_INPUT else stem if stems[stem] == 1 else path
+        progress("reading", index, len(paths))
+        bvh = _read(path)
+        progress.clear()
+        for warning in bvh.warnings:
+            tell(f"mlmg view: warning: {_PIPED if path == _STANDARD_INPUT else path}: {warning}")
+        story = _story(path, arguments.report[index] if arguments.report else None, len(bvh.frames))
         told = story.up if story is not None else None
-        scenes.append(scene_from_bvh(bvh, name, up=up or told or "y", story=story))
-    return scenes
+        motions.append(_Motion(path, name, bvh, arguments.up or told or "y", story or Story()))
+    return motions
 
 
-def _read(motion: str) -> Bvh:
+def _read(path: str) -> Bvh:
     from mlmg_runtime.bvh import read, read_bytes
     from mlmg_runtime.errors import BvhError
 
-    name = "standard input" if motion == _STANDARD_INPUT else motion
-    bvh = read_bytes(sys.stdin.buffer.read(), name) if motion == _STANDARD_INPUT else read(motion)
-    for warning in bvh.warnings:
-        tell(f"mlmg view: warning: {name}: {warning}")
+    bvh = read_bytes(sys.stdin.buffer.read(), _PIPED) if path == _STANDARD_INPUT else read(path)
     if not len(bvh.frames):
+        name = _PIPED if path == _STANDARD_INPUT else path
         raise BvhError(name, None, "expected a motion of at least one frame, found none")
     return bvh
 
@@ -176,20 +205,22 @@ def _looks_like_report(path: Path) -> bool:
         return False
 
 
-def _show(scenes: list[Scene], arguments: argparse.Namespace) -> None:
-    ending, output = _ending(arguments.output), arguments.output
-    if output is None:
+def _show_player(motions: list[_Motion], arguments: argparse.Namespace) -> None:
+    from mlmg_runtime.view.html import most_frames, write_html
+
+    scenes = []
+    for motion in motions:
+        frame_time_s = motion.bvh.frame_time_s
+        wanted = at_most_fps(motion.part(arguments.frames), arguments.fps, frame_time_s)
+        frames = thinned(wanted, most_frames(motion.bvh.joints) // len(motions), motion.name, frame_time_s)
+        if frames.step > wanted.step:
+            fps = 1.0 / (frames.step * frame_time_s)
+            tell(f"mlmg view: {motion.name}: {len(frames)} of its {len(wanted)} frames are shown, {fps:.3g} a second")
+        scenes.append(motion.scene(frames))
+    if arguments.output is None:
         _open_player(scenes, browse=not arguments.no_open)
-    elif ending == ".html":
-        from mlmg_runtime.view.html import write_html
-
-        write_html(scenes, output)
-    elif ending == ".png":
-        from mlmg_runtime.view.stills import write_png
-
-        write_png(scenes[0], output, _moments(scenes[0], arguments.frames))
     else:
-        _write_gif(scenes[0], output, arguments.frames)
+        write_html(scenes, arguments.output)
 
 
 def _open_player(scenes: list[Scene], browse: bool) -> None:
@@ -215,37 +246,30 @@ def _browse(page: Path) -> bool:
     return webbrowser.open(page.as_uri())
 
 
-def _moments(scene: Scene, frames: Frames | None) -> list[int]:
-    """Return the frames of a strip: those listed, or some that are evenly spread."""
-    from mlmg_runtime.view.stills import evenly_spread
+def _write_png(motion: _Motion, output: Path, asked: Frames | None, progress: ProgressLine) -> None:
+    from mlmg_runtime.view.stills import moments, write_png
+    from mlmg_runtime.view.studio import CAMERA_SMOOTHING_S
 
-    if isinstance(frames, tuple):
-        beyond = [frame for frame in frames if frame >= scene.n_frames]
-        if beyond:
-            raise _UsageError(f"frame {beyond[0]}: {scene.name} has the frames 0 to {scene.n_frames - 1}")
-        return list(frames)
-    part = _part(scene, frames)
-    return [part[at] for at in evenly_spread(len(part))]
-
-
-def _part(scene: Scene, frames: slice | None) -> range:
-    part = range(scene.n_frames)[frames or slice(None)]
-    if not part:
-        raise _UsageError(f"no frame is chosen: {scene.name} has the frames 0 to {scene.n_frames - 1}")
-    return part
+    frame_time_s = motion.bvh.frame_time_s
+    if isinstance(asked, tuple):
+        chosen = frames_at(asked, motion.name, motion.n_frames, frame_time_s)
+    else:
+        chosen = moments(motion.story, motion.part(asked))
+    reach = round(CAMERA_SMOOTHING_S / frame_time_s)
+    around = range(motion.n_frames)[max(min(chosen) - reach, 0) : max(chosen) + reach + 1]
+    write_png(motion.scene(around), output, [frame - around.start for frame in chosen], progress)
 
 
-def _write_gif(scene: Scene, output: Path, frames: slice | None) -> None:
-    from mlmg_runtime.view.movie import write_gif
+def _write_gif(motion: _Motion, output: Path, arguments: argparse.Namespace, progress: ProgressLine) -> None:
+    from mlmg_runtime.view.movie import RATE, shown_of, write_gif
 
-    part = _part(scene, frames)
-    progress = ProgressLine()
-    try:
-        shown = write_gif(scene, output, part, progress)
-    finally:
-        progress.clear()
+    part = motion.part(arguments.frames)
+    frame_time_s = motion.bvh.frame_time_s
+    shown = shown_of(part, frame_time_s)
+    write_gif(motion.scene(shown), output, progress=progress, fps=arguments.fps or RATE)
+    progress.clear()
     if len(shown) < len(part):
-        seconds, whole = len(shown) * scene.frame_time_s, len(part) * scene.frame_time_s
+        seconds, whole = len(shown) * frame_time_s, len(part) * frame_time_s
         tell(
             f"mlmg view: {output}: the first {seconds:.2g} s of {whole:.2g} s are shown; "
             f"--frames {shown.stop}:{part.stop} shows the rest"

@@ -13,13 +13,17 @@ from typing import Any
 
 import numpy as np
 
+from mlmg_runtime.bvh.document import Joint
 from mlmg_runtime.files import atomic_output
 from mlmg_runtime.view.captions import Track
 from mlmg_runtime.view.palette import ACCENTS, BACKGROUND, BODY, FLOOR, GRID
 from mlmg_runtime.view.scene import Scene
 
 _SCRIPTS = ("linear.js", "motion.js", "camera.js", "renderer.js", "timeline.js", "labels.js", "main.js")
+_HEELS_AND_JAW = 3
 _QUANTUM_STEPS = 32767
+MOST_BYTES = 48_000_000
+"""The most that the motions of a page may take, before they are written as text: what browsers open in a second."""
 
 
 def write_html(scenes: Sequence[Scene], path: str | Path) -> None:
@@ -31,6 +35,13 @@ def write_html(scenes: Sequence[Scene], path: str | Path) -> None:
     page = page_of(scenes)
     with atomic_output(path) as beside:
         beside.write_text(page, encoding="utf-8")
+
+
+def most_frames(joints: Sequence[Joint]) -> int:
+    """Return how many frames of a body a page can hold."""
+    n_tips = len(joints) - len({joint.parent for joint in joints if joint.parent >= 0})
+    n_points = len(joints) + n_tips + _HEELS_AND_JAW
+    return MOST_BYTES // (12 + 6 * n_points)
 
 
 def page_of(scenes: Sequence[Scene]) -> str:
@@ -73,6 +84,8 @@ def _scene(scene: Scene) -> dict[str, Any]:
     return {
         "name": scene.name,
         "frameTime": scene.frame_time_s,
+        "firstFrame": scene.frames.start,
+        "frameStep": scene.frames.step,
         "nFrames": scene.n_frames,
         "nPoints": scene.positions.shape[1],
         "root": scene.root,

@@ -37,13 +37,15 @@ def write_gif(
     path: str | Path,
     frames: range | None = None,
     progress: Callable[[str, int, int], None] | None = None,
+    fps: float = RATE,
 ) -> range:
-    """Write a movie at real speed, 15 pictures a second, that repeats without end.
+    """Write a movie at real speed that repeats without end.
 
     Parameters
     ----------
     frames : the frames to show, all by default; what is longer than 20 s is cut off.
     progress : called with "drawing", how many pictures are done, and how many there are.
+    fps : pictures a second, at most as many as there are frames.
 
     Returns
     -------
@@ -58,13 +60,15 @@ def write_gif(
     need_pillow()
     from PIL.Image import Dither
 
-    wanted = frames if frames is not None else range(scene.n_frames)
-    shown = wanted[: max(round(LONGEST_S / scene.frame_time_s), 1)]
-    moments = _moments(shown, scene.frame_time_s)
+    shown = shown_of(frames if frames is not None else range(scene.n_frames), scene.frame_time_s)
+    picture_time_s = max(1.0 / fps, scene.frame_time_s)
+    moments = _moments(shown, picture_time_s / scene.frame_time_s)
+    if progress:
+        progress("drawing", 0, len(moments))
     studio = studio_for(scene, SIZE, np.arange(scene.n_frames))
     picture = partial(_picture, scene, studio, camera_path(scene))
     palette = _palette(picture, moments)
-    durations_ms = _durations_ms(len(moments), _picture_time_s(scene.frame_time_s))
+    durations_ms = _durations_ms(len(moments), picture_time_s)
     pool = ThreadPoolExecutor()
     try:
         pictures = pool.map(lambda frame: picture(frame).quantize(palette=palette, dither=Dither.NONE), moments)
@@ -72,6 +76,11 @@ def write_gif(
     finally:
         pool.shutdown(cancel_futures=True)
     return shown
+
+
+def shown_of(frames: range, frame_time_s: float) -> range:
+    """Return those of some frames that a movie shows: the first 20 s."""
+    return frames[: max(round(LONGEST_S / frame_time_s), 1)]
 
 
 def _told(
@@ -89,14 +98,9 @@ def _save(path: str | Path, pictures: Iterator[Image], durations_ms: list[int]) 
         first.save(beside, format="GIF", save_all=True, append_images=pictures, loop=0, duration=durations_ms)
 
 
-def _moments(shown: range, frame_time_s: float) -> list[int]:
-    """Return the frames that are pictured: as many a second as the movie has, or all if there are fewer."""
-    step = _picture_time_s(frame_time_s) / frame_time_s
+def _moments(shown: range, step: float) -> list[int]:
+    """Return the frames that are pictured: one in `step`."""
     return [shown[int(at)] for at in np.arange(0, len(shown) - 1e-6, step)]
-
-
-def _picture_time_s(frame_time_s: float) -> float:
-    return max(1.0 / RATE, frame_time_s)
 
 
 def _durations_ms(n_pictures: int, picture_time_s: float) -> list[int]:
@@ -128,7 +132,7 @@ def _picture(scene: Scene, studio: Studio, targets: FloatArray, frame: int) -> I
 
     picture = draw(scene, frame, studio, targets[frame], tints_at(scene, frame))
     pen = Pen(Draw(picture), _LETTERS)
-    time = f"{frame * scene.frame_time_s:.1f} s"
+    time = f"{scene.time_s(frame):.1f} s"
     pen.write(SIZE[0] - _MARGIN - pen.width(time), _MARGIN, time, FAINT_TEXT)
     playing = scene.story.playing_at(frame)
     top = SIZE[1] - _MARGIN - _LINE * len(playing)

@@ -13,6 +13,8 @@ from mlmg_runtime.view.scene import Float32Array, Scene
 _FROM_THE_SIDE_RAD = 0.6
 _MARGIN_M = 0.22
 _NEAREST_M = 4.0
+CAMERA_SMOOTHING_S = 1.0
+"""The camera's place over the ground is the mean of the figure's over so long."""
 
 
 @dataclass(frozen=True)
@@ -94,7 +96,7 @@ def studio_for(scene: Scene, size: tuple[int, int], frames: IntArray, oversampli
     return replace(studio, distance_m=float(max(nearest + seen[..., 2].max(), _NEAREST_M)))
 
 
-def camera_path(scene: Scene, smoothing_s: float = 1.0) -> FloatArray:
+def camera_path(scene: Scene, smoothing_s: float = CAMERA_SMOOTHING_S) -> FloatArray:
     """Return where a camera that follows the figure looks in each frame, shape (n_frames, 3).
 
     Over the ground it follows smoothly; its height is half that of the body.

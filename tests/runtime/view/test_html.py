@@ -6,6 +6,7 @@ from importlib.resources import files
 import numpy as np
 import pytest
 
+from mlmg_runtime.view import html
 from mlmg_runtime.view.html import page_of, write_html
 from mlmg_runtime.view.scene import scene_from_bvh
 
@@ -48,6 +49,12 @@ def test_a_frame_takes_twelve_bytes_and_six_for_each_point(scene, page):
     data = data_of(page)["scenes"][0]
     n_bytes = sum(len(base64.b64decode(data[key])) for key in ("path", "offsets"))
     assert n_bytes == scene.n_frames * (12 + 6 * scene.positions.shape[1])
+
+
+def test_as_many_frames_as_a_page_can_hold_are_told_before_they_are_drawn(scene, person):
+    points, joints = scene.positions.shape[1], person().joints
+    assert html.most_frames(joints) * (12 + 6 * points) <= html.MOST_BYTES
+    assert (html.most_frames(joints) + 1) * (12 + 6 * points) > html.MOST_BYTES
 
 
 def test_capsules_come_back_as_balls_and_pairs(scene, page):

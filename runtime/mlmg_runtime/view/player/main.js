@@ -42,7 +42,7 @@ class Player {
       if (number(key) !== null) this.camera[key] = scale * number(key);
     }
     for (const key of Object.keys(this.on)) if (query.has(key)) this.on[key] = query.get(key) !== "0";
-    if (number("frame") !== null) this.seek(number("frame") * this.frameTime);
+    if (number("frame") !== null) this.seek(this.motions[0].frameOf(number("frame")) * this.frameTime);
     this.setPlaying(query.has("play") ? query.get("play") !== "0" : !query.has("frame"));
   }
 
@@ -182,7 +182,7 @@ class Player {
     this.motions.forEach((motion, index) => this.labels.show(index, motion, motion.frameAt(this.time)));
     this.showTime();
     root.dataset.state = "ready";
-    root.dataset.frame = this.motions[0].frameAt(this.time);
+    root.dataset.frame = this.motions[0].fileFrame(this.motions[0].frameAt(this.time));
   }
 
   // The part of the window of each file: [left, top, width, height], in rows of panes that are taller than wide.
@@ -266,8 +266,9 @@ class Player {
 
   showTime() {
     const motion = this.motions.reduce((a, b) => (b.duration > a.duration ? b : a));
-    const seconds = `${this.time.toFixed(2)} / ${this.duration.toFixed(2)} s`;
-    const frames = `frame ${motion.frameAt(this.time)} / ${motion.nFrames - 1}`;
+    const [now, end] = [this.time, this.duration].map((time) => (motion.begin + time).toFixed(2));
+    const seconds = `${now} / ${end} s`;
+    const frames = `frame ${motion.fileFrame(motion.frameAt(this.time))} / ${motion.fileFrame(motion.nFrames - 1)}`;
     const faint = document.createElement("span");
     faint.textContent = frames;
     byId("clock").replaceChildren(seconds, faint);

@@ -37,6 +37,20 @@ class Motion {
     return result;
   }
 
+  // The number in its file of a frame, and back.
+  fileFrame(frame) {
+    return this.firstFrame + this.frameStep * frame;
+  }
+
+  frameOf(fileFrame) {
+    return (fileFrame - this.firstFrame) / this.frameStep;
+  }
+
+  // When the first frame is shown, counted from the beginning of the file.
+  get begin() {
+    return this.frameOf(0) * -this.frameTime;
+  }
+
   frameAt(time) {
     return clamp(Math.floor(time / this.frameTime + 1e-6), 0, this.nFrames - 1);
   }
