@@ -207,7 +207,7 @@ def test_a_gif_has_as_many_pictures_a_second_as_it_is_told(folder):
             assert image.n_frames == n_pictures
 
 
-@pytest.mark.parametrize(("output", "stages"), [("x.gif", "reading drawing"), ("x.png", "reading drawing")])
+@pytest.mark.parametrize(("output", "stages"), [("x.gif", "reading choosing drawing"), ("x.png", "reading drawing")])
 def test_on_a_terminal_it_is_told_how_far_the_work_is(folder, monkeypatch, output, stages):
     terminal = Terminal()
     monkeypatch.setattr(sys, "stderr", terminal)

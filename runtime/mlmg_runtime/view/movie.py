@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
@@ -23,6 +23,8 @@ from mlmg_runtime.view.tints import tints_at
 if TYPE_CHECKING:
     from PIL.Image import Image
 
+Progress: TypeAlias = Callable[[str, int, int], None]
+
 SIZE = (640, 480)
 RATE = 15.0
 LONGEST_S = 20.0
@@ -36,7 +38,7 @@ def write_gif(
     scene: Scene,
     path: str | Path,
     frames: range | None = None,
-    progress: Callable[[str, int, int], None] | None = None,
+    progress: Progress | None = None,
     fps: float = RATE,
 ) -> range:
     """Write a movie at real speed that repeats without end.
@@ -44,7 +46,7 @@ def write_gif(
     Parameters
     ----------
     frames : the frames to show, all by default; what is longer than 20 s is cut off.
-    progress : called with "drawing", how many pictures are done, and how many there are.
+    progress : called with what is being done, how many pictures of it are done, and of how many.
     fps : pictures a second, at most as many as there are frames.
 
     Returns
@@ -63,16 +65,14 @@ def write_gif(
     shown = shown_of(frames if frames is not None else range(scene.n_frames), scene.frame_time_s)
     picture_time_s = max(1.0 / fps, scene.frame_time_s)
     moments = _moments(shown, picture_time_s / scene.frame_time_s)
-    if progress:
-        progress("drawing", 0, len(moments))
     studio = studio_for(scene, SIZE, np.arange(scene.n_frames))
     picture = partial(_picture, scene, studio, camera_path(scene))
-    palette = _palette(picture, moments)
+    palette = _palette(picture, moments, progress or _untold)
     durations_ms = _durations_ms(len(moments), picture_time_s)
     pool = ThreadPoolExecutor()
     try:
         pictures = pool.map(lambda frame: picture(frame).quantize(palette=palette, dither=Dither.NONE), moments)
-        _save(path, _told(pictures, len(moments), progress), durations_ms)
+        _save(path, _told(pictures, len(moments), progress or _untold), durations_ms)
     finally:
         pool.shutdown(cancel_futures=True)
     return shown
@@ -83,13 +83,15 @@ def shown_of(frames: range, frame_time_s: float) -> range:
     return frames[: max(round(LONGEST_S / frame_time_s), 1)]
 
 
-def _told(
-    pictures: Iterable[Image], n_pictures: int, progress: Callable[[str, int, int], None] | None
-) -> Iterator[Image]:
+def _told(pictures: Iterable[Image], n_pictures: int, progress: Progress) -> Iterator[Image]:
+    progress("drawing", 0, n_pictures)
     for done, picture in enumerate(pictures, start=1):
-        if progress:
-            progress("drawing", done, n_pictures)
+        progress("drawing", done, n_pictures)
         yield picture
+
+
+def _untold(_stage: str, _done: int, _total: int) -> None:
+    """Tell nobody how far the work is."""
 
 
 def _save(path: str | Path, pictures: Iterator[Image], durations_ms: list[int]) -> None:
@@ -109,7 +111,7 @@ def _durations_ms(n_pictures: int, picture_time_s: float) -> list[int]:
     return [int(step) for step in 10 * np.diff(ends)]
 
 
-def _palette(picture: Callable[[int], Image], moments: list[int]) -> Image:
+def _palette(picture: Callable[[int], Image], moments: list[int], progress: Progress) -> Image:
     """Return a picture with the colours that moments from all over the movie need, the figure's first."""
     from PIL.Image import new
 
@@ -119,6 +121,7 @@ def _palette(picture: Callable[[int], Image], moments: list[int]) -> Image:
     for column, colour in enumerate((TEXT, FAINT_TEXT, *ACCENTS)):
         sheet.paste(colour, (column * _SWATCH, height * len(sampled), (column + 1) * _SWATCH, sheet.height))
     for row, frame in enumerate(sampled):
+        progress("choosing colours", row, len(sampled))
         whole = picture(frame)
         figure = whole.crop((width // 3, 0, 2 * width // 3, height))
         sheet.paste(whole.resize((width // 3, height)), (0, row * height))
