@@ -1,12 +1,16 @@
-"""A file, or standard input -> a source, or why its bytes are no text."""
+"""A file, or standard input -> a source, or why its bytes are no text; and the files that a script uses."""
 
 from __future__ import annotations
 
+import os
 import sys
 from codecs import BOM_UTF8, BOM_UTF16_BE, BOM_UTF16_LE
+from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
 from mlmg_lang.diagnostics import Diagnostic
+from mlmg_lang.libraries import SETTINGS
 from mlmg_lang.source import Source, Span
 
 
@@ -35,6 +39,61 @@ def source_from_bytes(data: bytes, name: str) -> tuple[Source, tuple[Diagnostic,
     except UnicodeDecodeError as error:
         at = len(body[: error.start].decode("utf-8"))
         return Source(body.decode("utf-8", errors="replace"), name), (_not_utf8(body, error.start, at),)
+
+
+@dataclass(frozen=True, slots=True)
+class UsedFiles:
+    """Finds the files that a script uses: from the folder of the file that names them, and not outside of `folders`.
+
+    Attributes
+    ----------
+    script : the script's name, which its own file keeps.
+    folders : absolute, without links.
+    """
+
+    script: str
+    folders: tuple[Path, ...]
+
+    def find(self, path: str, user: str) -> tuple[Source, tuple[Diagnostic, ...]] | str:
+        """Return a file, and what is wrong with its bytes; or, in words, why it cannot be used."""
+        name = os.path.normpath(Path(user).parent / path)
+        real = Path(os.path.realpath(name))
+        if not any(real.is_relative_to(folder) for folder in self.folders):
+            return f"`{path}` lies outside of the script's own folders; `--allow-use FOLDER` would allow it"
+        if real == Path(os.path.realpath(self.script)):
+            name = self.script
+        try:
+            return source_from_bytes(real.read_bytes(), name)
+        except FileNotFoundError:
+            return f"there is no file `{path}`{_alike(real)}"
+        except (OSError, ValueError) as error:
+            return f"`{path}` cannot be read: {error.strerror if isinstance(error, OSError) else error}"
+
+
+def used_files(script: str | Path, allowed: Sequence[str | Path] = ()) -> UsedFiles:
+    """Return what finds the files that a script uses.
+
+    They may lie in the script's folder, or in that of the nearest `mlmg.toml` above it, and below.
+
+    Parameters
+    ----------
+    script : its path; `-` is taken to stand in the current folder.
+    allowed : further folders.
+    """
+    folder = Path(os.path.realpath(os.curdir if str(script) == "-" else Path(script).parent))
+    settings = next((place for place in (folder, *folder.parents) if (place / SETTINGS).is_file()), folder)
+    return UsedFiles(str(script), (settings, *(Path(os.path.realpath(other)) for other in allowed)))
+
+
+def _alike(missing: Path) -> str:
+    """Return what to say of files with nearly the name of one that is missing."""
+    from mlmg_lang.spelling import nearest
+
+    try:
+        near = nearest(missing.name, sorted(other.name for other in missing.parent.glob("*.ms")), limit=1)
+    except OSError:
+        near = ()
+    return f"; there is `{near[0]}`" if near else ""
 
 
 def _not_utf8(data: bytes, first: int, at: int) -> Diagnostic:

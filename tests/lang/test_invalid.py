@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
@@ -11,6 +12,7 @@ import pytest
 from mlmg_lang.diagnostics import CODES
 from mlmg_lang.front_end import analyse
 from mlmg_lang.rendering import render_full
+from mlmg_lang.script_files import UsedFiles
 from mlmg_lang.source import Source
 
 SCRIPTS = sorted((Path(__file__).parents[1] / "invalid").glob("*.ms"))
@@ -26,8 +28,11 @@ def library_of(text: str) -> str:
 def test_a_wrong_script_is_told_what_is_wrong_with_it(
     path: Path, libraries: Mapping[str, Any], golden: Callable[[Path, str], None]
 ) -> None:
+    """Files that a script uses are those in the folder `used`, which is the script's own for the time."""
     text = path.read_bytes().decode("utf-8")
-    analysis = analyse(Source(text, path.name), libraries[library_of(text)])
+    files = UsedFiles(path.name, (path.parent / "used",))
+    with contextlib.chdir(path.parent / "used"):
+        analysis = analyse(Source(text, path.name), libraries[library_of(text)], files=files)
     assert analysis.diagnostics
     golden(path.with_suffix(".txt"), render_full(analysis.diagnostics, analysis.source))
 

@@ -17,7 +17,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from mlmg_lang.commands.console import DONE, WRONG_CONTENT, WRONG_USAGE, tell
+from mlmg_lang.commands.console import DONE, WRONG_CONTENT, WRONG_USAGE, add_use_option, tell
 
 if TYPE_CHECKING:
     from mlmg_lang.catalog import Catalog
@@ -31,6 +31,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Say what the command takes."""
     parser.add_argument("scripts", nargs="+", metavar="SCRIPT", help="a script; - reads standard input")
     parser.add_argument("--library", metavar="L.mlmg", help="the library that the scripts are for")
+    add_use_option(parser)
     parser.add_argument("--format", choices=FORMATS, default="full", help="how diagnostics are written")
 
 
@@ -43,7 +44,7 @@ def run(arguments: argparse.Namespace) -> int:
     unread = False
     for script in arguments.scripts:
         try:
-            checked.append(_check(script, libraries))
+            checked.append(_check(script, libraries, arguments.allow_use))
         except OSError as error:
             unread = True
             tell(f"mlmg check: error: {error.filename or script}: {error.strerror or error}")
@@ -78,14 +79,15 @@ class _Libraries:
         return self._opened[path]
 
 
-def _check(script: str, libraries: _Libraries) -> tuple[Source, tuple[Diagnostic, ...]]:
+def _check(script: str, libraries: _Libraries, allowed: list[str]) -> tuple[Source, tuple[Diagnostic, ...]]:
     from mlmg_lang.front_end import analyse
-    from mlmg_lang.script_files import read_script
+    from mlmg_lang.script_files import read_script, used_files
 
     source, unreadable = read_script(script)
     if unreadable:
         return source, unreadable
-    return source, analyse(source, libraries.for_script(script)).diagnostics
+    analysis = analyse(source, libraries.for_script(script), files=used_files(script, allowed))
+    return analysis.source, analysis.diagnostics
 
 
 def _write(checked: list[tuple[Source, tuple[Diagnostic, ...]]], form: str) -> None:

@@ -149,7 +149,7 @@ class ProgressLine:
             self._stage, self._begun = stage, now
         text = f"{stage} {done}/{total}"
         elapsed = now - self._begun
-        if 0 < done < total and elapsed > 1.0:
+        if 0 < done < total and elapsed > 3.0:
             text += f", {elapsed * (total - done) / done:.0f} s left"
         self.stream.write("\r" + text.ljust(self._shown))
         self._shown = len(text)
@@ -161,3 +161,14 @@ class ProgressLine:
             self.stream.write("\r" + " " * self._shown + "\r")
             self.stream.flush()
             self._shown = 0
+
+
+def add_use_option(parser: argparse.ArgumentParser) -> None:
+    """Add the option that lets scripts use files of other folders than their own."""
+    parser.add_argument(
+        "--allow-use",
+        metavar="FOLDER",
+        action="append",
+        default=[],
+        help='let scripts use definitions from this folder too (use "file.ms"); may be given again',
+    )

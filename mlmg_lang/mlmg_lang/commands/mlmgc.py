@@ -14,6 +14,7 @@ from mlmg_lang.commands.console import (
     WRONG_CONTENT,
     ProgressLine,
     UsageError,
+    add_use_option,
     frame_rate,
     one_thread_a_product,
     refuse_overwriting,
@@ -71,6 +72,7 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument(
         "--blend", choices=("c1", "linear"), help="how transitions are weighted; as the library is configured"
     )
+    add_use_option(parser)
     parser.add_argument("--version", action=VersionAction, nargs=0, help="show the version and leave")
     return parser
 
@@ -78,7 +80,7 @@ def _parser() -> argparse.ArgumentParser:
 def _run(arguments: argparse.Namespace) -> int:
     from mlmg_lang.front_end import analyse
     from mlmg_lang.libraries import find_library
-    from mlmg_lang.script_files import read_script
+    from mlmg_lang.script_files import read_script, used_files
 
     if arguments.output == "-" and arguments.report == "-":
         raise UsageError("the motion and the report cannot both go to standard output")
@@ -91,8 +93,9 @@ def _run(arguments: argparse.Namespace) -> int:
         _show(source, unreadable)
         return WRONG_CONTENT
     library = _library(library_path)
-    analysis = analyse(source, library, start=arguments.start)
-    _show(source, analysis.diagnostics)
+    files = used_files(arguments.script, arguments.allow_use)
+    analysis = analyse(source, library, arguments.start, files)
+    _show(analysis.source, analysis.diagnostics)
     if analysis.resolved is None:
         return WRONG_CONTENT
     if not analysis.resolved.statements:

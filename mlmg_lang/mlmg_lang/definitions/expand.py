@@ -41,6 +41,13 @@ def expand(script: syntax.Script, definitions: Definitions) -> Expanded:
     return Expanded(replace(script, items=items), (*expander.diagnostics, *_unused(script, definitions)))
 
 
+def told_from(one: Diagnostic, command: Span) -> Diagnostic:
+    """Return what is wrong with something that a command says with the command's place, if it is a definition's."""
+    if one.span is None or (command.start <= one.span.start and one.span.end <= command.end):
+        return one
+    return replace(one, notes=(*one.notes, Note("it is used here", command)))
+
+
 def _unused(script: syntax.Script, definitions: Definitions) -> Iterator[Diagnostic]:
     """Yield the definitions of a script that nothing in it uses."""
     used: set[str] = set()
@@ -70,6 +77,7 @@ class _Expander:
     definitions: Definitions
     diagnostics: list[Diagnostic] = field(default_factory=list)
     nodes: int = 0
+    command: Span = Span(0, 0)
 
     # --- statements ---
 
@@ -87,7 +95,7 @@ class _Expander:
         return item
 
     def _command(self, command: syntax.Command) -> syntax.Item:
-        self.nodes = 0
+        self.nodes, self.command = 0, command.span
         try:
             whole = self._whole(command)
             if whole is not None:
@@ -129,8 +137,8 @@ class _Expander:
         """Return an expression with all that is defined put in; the very same if nothing is."""
         self.nodes += 1
         if self.nodes > MAX_NODES or depth > 2 * MAX_DEPTH:
-            message = "what is defined here becomes too large when it is put in"
-            raise self._fail(Diagnostic("MS048", message, motion.span, "say it with fewer definitions"))
+            message = "this becomes too large when what is defined is put in"
+            raise self._fail(Diagnostic("MS048", message, self.command, "say it with fewer definitions in each other"))
         match motion:
             case syntax.Reference(name, span):
                 value = values.get(normal(name.text))

@@ -12,7 +12,7 @@ from mlmg_lang.parsing import syntax
 from mlmg_lang.parsing.parse import parse
 from mlmg_lang.parsing.tokenize import tokenize
 from mlmg_lang.source import Source
-from mlmg_lang.spelling import listed, normal
+from mlmg_lang.spelling import normal
 
 MAX_FILES = 100
 """The most files that a script may use, itself and by way of others."""
@@ -111,7 +111,7 @@ class _Gatherer:
             return
         file, unreadable = found
         if file.name in users:
-            circle = listed((*users[users.index(file.name) :], file.name), "and")
+            circle = " -> ".join(f"`{name}`" for name in (*users[users.index(file.name) :], file.name))
             self._refuse(use, "MS059", f"these files use each other in a circle: {circle}", "take one `use` out")
         elif unreadable:
             self._refuse(use, "MS058", f"`{use.path.text}`: {unreadable[0].message}", unreadable[0].help)

@@ -36,7 +36,8 @@ def signatures(lets: Mapping[str, syntax.Let]) -> tuple[dict[str, Signature], tu
     """Return the signatures of the definitions that have no mistake in this respect, and what is wrong with others."""
     circles = dict(_circles(lets))
     reader = _Reader(lets, circles)
-    reader.diagnostics += [_in_circle(lets[name], circle, lets) for name, circle in circles.items()]
+    each_once = {frozenset(circle): name for name, circle in reversed(circles.items())}
+    reader.diagnostics += [_in_circle(lets[name], circles[name], lets) for name in reversed(each_once.values())]
     for name in lets:
         reader.signature(name)
     found = {name: signature for name, signature in reader.known.items() if signature is not None}

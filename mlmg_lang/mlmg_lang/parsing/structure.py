@@ -151,7 +151,11 @@ class _Structure:
             fix = Fix(whole, "", safe=False)
             yield Diagnostic("MS045", message, amount.span, help="leave it out, or give it time", fixes=(fix,))
         elif (number if seconds is None else seconds) > LONGEST_S:
-            message = "this is longer than a day" if unit_of(amount) != "cycles" else "no one sees so many cycles"
+            message = (
+                "this is longer than a day"
+                if unit_of(amount) != "cycles"
+                else "this is more cycles than a day has seconds"
+            )
             yield Diagnostic("MS046", message, amount.span, help="check number and unit")
 
     # --- motion expressions ---

@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 
+from mlmg_lang.definitions.expand import told_from
 from mlmg_lang.definitions.gather import Definitions
-from mlmg_lang.diagnostics import Diagnostic, Note, has_errors
+from mlmg_lang.diagnostics import Diagnostic, has_errors
 from mlmg_lang.parsing import syntax
 from mlmg_lang.parsing.amounts import seconds_from_quantity, unit_of
 from mlmg_lang.parsing.structure import is_sub, motion_mistakes
@@ -97,7 +98,7 @@ class _Planner:
     def _command(self, command: syntax.Command) -> typed.Statement:
         before = len(self.diagnostics)
         ways = self._ways(command.motion)
-        self.diagnostics[before:] = [_told_from(one, command.span) for one in self.diagnostics[before:]]
+        self.diagnostics[before:] = [told_from(one, command.span) for one in self.diagnostics[before:]]
         if ways is None:
             return typed.Unplanned(command.span)
         duration = None if command.duration is None else self._duration(command.duration)
@@ -163,13 +164,6 @@ class _Planner:
             return typed.Duration(None, None, amount.span)
         cycles = float(amount.number) if unit_of(amount) == "cycles" else None
         return typed.Duration(seconds_from_quantity(amount, self._frame_rate), cycles, amount.span)
-
-
-def _told_from(one: Diagnostic, command: Span) -> Diagnostic:
-    """Return what is wrong with something in a definition with the place where it is used."""
-    if one.span is None or (command.start <= one.span.start and one.span.end <= command.end):
-        return one
-    return replace(one, notes=(*one.notes, Note("it is used here", command)))
 
 
 def _clashes(name: syntax.Name, names: Names) -> Iterator[Diagnostic]:

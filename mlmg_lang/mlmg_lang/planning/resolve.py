@@ -11,6 +11,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 
 from mlmg_lang.catalog import Catalog
+from mlmg_lang.definitions.expand import told_from
 from mlmg_lang.diagnostics import Diagnostic, Fix, Note
 from mlmg_lang.planning import flow, resolved, typed
 from mlmg_lang.planning.chart import START, Step, chart
@@ -93,10 +94,16 @@ def _start(
 
 @dataclass(slots=True)
 class _Trial:
-    """A narrowing of earlier commands for the sake of step `number`, which can be taken back."""
+    """A narrowing of earlier commands for the sake of step `number`, which can be taken back.
+
+    Attributes
+    ----------
+    pending : the steps that have not shown yet that they can go on with it.
+    """
 
     number: int
     stopped: flow.Stopped
+    pending: set[int]
     forbidden: list[tuple[flow.Setter, str]] = field(default_factory=list)
 
 
@@ -201,24 +208,27 @@ class _Resolver:
             for graph, candidates in move.candidates.items()
         )
         self.done[command.span] = resolved.Command(layers, _duration(command), command.span)
-        if self.trial is not None and self.trial.number == number:
-            self.trial = None
+        if self.trial is not None:
+            self.trial.pending.discard(number)
+            if not self.trial.pending:
+                self.trial = None
 
     def _refuse(self, number: int, command: typed.Command, stopped: flow.Stopped) -> int:
         """Try the next way to understand a command; if there is none, say why the first cannot be obeyed."""
         first = self.first_stop.setdefault(number, stopped)
         self.ways[number] = self.ways.get(number, 0) + 1
         if self.ways[number] == len(command.ways):
-            self.told[number] = self._reason(first)
+            self.told[number] = told_from(self._reason(first), command.span)
             self.done.pop(command.span, None)
         return self._back_to(number)
 
     def _narrow(self, number: int, command: typed.Command, way: typed.Layering, narrow: flow.Narrow) -> int:
         """Take candidates away from earlier commands, and go back to the first of them."""
         if self.trial is None:
-            self.trial = _Trial(number, self._as_stop(way, narrow))
+            self.trial = _Trial(number, self._as_stop(way, narrow), {number})
         line, _ = self.source.position(command.span.start)
         because = f"what line {line} asks of `{narrow.graph}` cannot begin in it"
+        self.trial.pending |= {setter for setter, _ in narrow.without}
         for setter, motions in narrow.without.items():
             here = self.forbidden.setdefault(setter, {})
             for motion in sorted(motions - here.keys()):
