@@ -10,7 +10,7 @@ from types import SimpleNamespace
 import pytest
 
 from mlmg_lang.commands.mlmg import main
-from mlmg_runtime.view import html, movie, stills
+from mlmg_runtime.view import html, lettering, movie, stills
 
 BVH = """HIERARCHY
 ROOT Hips
@@ -226,6 +226,19 @@ def test_frames_choose_the_moments_of_a_picture(folder):
         with Image.open(folder / "x.png") as image:
             widths.append(image.width)
     assert widths == [250, 3 * 254 - 4, 4 * 254 - 4]
+
+
+@pytest.mark.parametrize("output", ["x.png", "x.gif"])
+def test_letters_that_no_font_has_are_told_in_one_line(folder, capsys, monkeypatch, output):
+    monkeypatch.setattr(lettering, "letters_without_font", lambda texts: "走路" if "走路" in set(texts) else "")
+    assert view("stroll.bvh", "-o", output) == 0
+    assert capsys.readouterr().err == ""
+    commands = [{**REPORT["commands"][0], "text": "走路"}]
+    (folder / "r.json").write_text(json.dumps({**REPORT, "commands": commands}))
+    assert view("stroll.bvh", "-o", output, "--report", "r.json") == 0
+    assert capsys.readouterr().err == (
+        "mlmg view: no font was found that has 走路: spelt out as in \\u8d70; install one, such as Noto Sans (CJK)\n"
+    )
 
 
 def test_a_gif_that_is_cut_says_how_to_see_the_rest(folder, capsys, monkeypatch):

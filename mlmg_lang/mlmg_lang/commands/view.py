@@ -37,6 +37,8 @@ if TYPE_CHECKING:
 _ENDINGS = (".html", ".png", ".gif")
 _STANDARD_INPUT, _PIPED = "-", "standard input"
 
+_MOST_LETTERS = 12
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Motion:
@@ -246,6 +248,20 @@ def _browse(page: Path) -> bool:
     return webbrowser.open(page.as_uri())
 
 
+def _tell_of_letters(scene: Scene) -> None:
+    """Say which letters of the captions are spelt out, if any are."""
+    from mlmg_runtime.view.lettering import letters_without_font
+
+    letters = letters_without_font(scene.story.texts())
+    if letters:
+        spelt = letters[0].encode("unicode_escape").decode("ascii")
+        more = "..." if len(letters) > _MOST_LETTERS else ""
+        tell(
+            f"mlmg view: no font was found that has {letters[:_MOST_LETTERS]}{more}: spelt out as in {spelt}; "
+            "install one, such as Noto Sans (CJK)"
+        )
+
+
 def _write_png(motion: _Motion, output: Path, asked: Frames | None, progress: ProgressLine) -> None:
     from mlmg_runtime.view.stills import moments, write_png
     from mlmg_runtime.view.studio import CAMERA_SMOOTHING_S
@@ -257,7 +273,9 @@ def _write_png(motion: _Motion, output: Path, asked: Frames | None, progress: Pr
         chosen = moments(motion.story, motion.part(asked))
     reach = round(CAMERA_SMOOTHING_S / frame_time_s)
     around = range(motion.n_frames)[max(min(chosen) - reach, 0) : max(chosen) + reach + 1]
-    write_png(motion.scene(around), output, [frame - around.start for frame in chosen], progress)
+    scene = motion.scene(around)
+    _tell_of_letters(scene)
+    write_png(scene, output, [frame - around.start for frame in chosen], progress)
 
 
 def _write_gif(motion: _Motion, output: Path, arguments: argparse.Namespace, progress: ProgressLine) -> None:
@@ -266,7 +284,9 @@ def _write_gif(motion: _Motion, output: Path, arguments: argparse.Namespace, pro
     part = motion.part(arguments.frames)
     frame_time_s = motion.bvh.frame_time_s
     shown = shown_of(part, frame_time_s)
-    write_gif(motion.scene(shown), output, progress=progress, fps=arguments.fps or RATE)
+    scene = motion.scene(shown)
+    _tell_of_letters(scene)
+    write_gif(scene, output, progress=progress, fps=arguments.fps or RATE)
     progress.clear()
     if len(shown) < len(part):
         seconds, whole = len(shown) * frame_time_s, len(part) * frame_time_s

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -73,6 +73,13 @@ class Story:
             for stretch in track.stretches
             if stretch.begin <= frame < stretch.end
         )
+
+    def texts(self) -> Iterator[str]:
+        """Yield all that may be written about the motion."""
+        yield from (command.text for command in self.commands)
+        for track in self.tracks:
+            yield track.graph
+            yield from (stretch.text for stretch in track.stretches)
 
     def within(self, frames: range) -> Story:
         """Return what is told of some frames of the motion, which are then counted from 0."""

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import shutil
+import subprocess
+import unicodedata
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from functools import lru_cache
 from itertools import groupby
@@ -18,13 +21,17 @@ if TYPE_CHECKING:
 _FALLBACKS = (
     "DejaVuSans.ttf",
     "NotoSansCJK-Regular.ttc",
-    "wqy-zenhei.ttc",
-    "msgothic.ttc",
+    "msyh.ttc",
+    "malgun.ttf",
+    "PingFang.ttc",
     "Hiragino Sans GB.ttc",
+    "AppleSDGothicNeo.ttc",
     "Arial Unicode.ttf",
 )
 _SPELT_OUT = {"→": "->", "×": "x", "…": "...", "↺": "(again)"}
 _NO_LETTER = "\uffff"
+_LEAN_ON_OTHERS = frozenset({"Mn", "Mc", "Me", "Cf"})
+_LONGEST_ANSWER_S = 10.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,12 +76,30 @@ class Pen:
         return text[:kept].rstrip() + "…"
 
 
+def letters_without_font(texts: Iterable[str]) -> str:
+    """Return the letters of some texts that no font here has, each once: they are spelt out, as in `\\u8d70`."""
+    letters = dict.fromkeys(letter for text in texts for letter, font in _fonts(text, 16) if font is None)
+    return "".join(letter for letter in letters if letter not in _SPELT_OUT)
+
+
 def _runs(text: str, size: int) -> Iterator[tuple[Font, str]]:
     """Yield the parts of a text that are written in one font."""
-    own = _own_font(size)
-    for font, letters in groupby(text, key=lambda letter: _font_for(letter, size)):
-        run = "".join(letters)
-        yield (font, run) if font else (own, "".join(_SPELT_OUT.get(letter, letter) for letter in run))
+    for font, pairs in groupby(_fonts(text, size), key=lambda pair: pair[1]):
+        run = "".join(letter for letter, _ in pairs)
+        yield (font, run) if font else (_own_font(size), "".join(map(_spelt_out, run)))
+
+
+def _fonts(text: str, size: int) -> Iterator[tuple[str, Font | None]]:
+    """Yield each letter with its font, None if no font has it; what leans on the letter before stays with it."""
+    font: Font | None = _own_font(size)
+    for letter in unicodedata.normalize("NFC", text):
+        if unicodedata.category(letter) not in _LEAN_ON_OTHERS:
+            font = _font_for(letter, size)
+        yield letter, font
+
+
+def _spelt_out(letter: str) -> str:
+    return _SPELT_OUT.get(letter) or letter.encode("unicode_escape").decode("ascii")
 
 
 @lru_cache(maxsize=2048)
@@ -83,8 +108,12 @@ def _font_for(letter: str, size: int) -> Font | None:
     own = _own_font(size)
     if letter.isspace() or _has_letter(own, letter):
         return own
-    fallbacks = (_fallback(name, size) for name in _FALLBACKS)
-    return next((font for font in fallbacks if font and _has_letter(font, letter)), None)
+    for name in _FALLBACKS:
+        font = _fallback(name, size)
+        if font is not None and _has_letter(font, letter):
+            return font
+    font = _system_font(letter, size)
+    return font if font is not None and _has_letter(font, letter) else None
 
 
 @lru_cache
@@ -101,6 +130,23 @@ def _fallback(name: str, size: int) -> Font | None:
     try:
         return ImageFont.truetype(name, size)
     except OSError:
+        return None
+
+
+def _system_font(letter: str, size: int) -> Font | None:
+    """Return the font that fontconfig, where there is one, thinks best for a letter; it need not have it."""
+    from PIL import ImageFont
+
+    program = shutil.which("fc-match")
+    if program is None:
+        return None
+    question = [program, "--format=%{file}\n%{index}", f":charset={ord(letter):x}"]
+    try:
+        answer = subprocess.run(question, capture_output=True, check=True, timeout=_LONGEST_ANSWER_S).stdout
+        path, _, index = answer.decode("utf-8", "surrogateescape").rpartition("\n")
+        # The upper half of the index names an instance of a variable font.
+        return ImageFont.truetype(path, size, index=int(index) & 0xFFFF)
+    except (OSError, ValueError, subprocess.SubprocessError):
         return None
 
 
