@@ -9,6 +9,7 @@ from hypothesis import settings
 from mlmg_runtime.building.build import build_library
 from mlmg_runtime.building.configuration import read_configuration
 from mlmg_runtime.built_library import BuiltLibrary
+from mlmg_runtime.database import write_database
 from mlmg_runtime.demo.library import demo_library as build_demo_library
 from mlmg_runtime.library import Library, open_library
 
@@ -63,3 +64,17 @@ def build_reference(mocap: Path, tmp_path_factory: pytest.TempPathFactory) -> Ca
         return build_library(read_configuration(path), None, lambda *_: None)
 
     return build
+
+
+@pytest.fixture(scope="session")
+def reference_built(build_reference: Callable[..., BuiltLibrary]) -> BuiltLibrary:
+    """Return the reference library as it was built."""
+    return build_reference("reference")
+
+
+@pytest.fixture(scope="session")
+def reference_library(reference_built: BuiltLibrary, tmp_path_factory: pytest.TempPathFactory) -> Library:
+    """Return the reference library, written and opened."""
+    path = tmp_path_factory.mktemp("opened") / "reference.mlmg"
+    write_database(reference_built, path)
+    return open_library(path)

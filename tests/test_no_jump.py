@@ -1,7 +1,8 @@
-"""In these scripts no joint of the demo library steps farther between two frames than its clips let expect.
+"""No joint steps farther between two frames than the clips let expect.
 
-The longest step of a joint in the world is at most 1.5 times its longest in the clips that play at the time. Of a
-hundred and fifty random scripts fourteen exceed that, by up to 1.58, in blends made on the spot: docs/measurements.md.
+The longest step of a joint in the world is at most 1.5 times its longest in the clips that play at the time. Two
+things on real clips exceed that, and docs/measurements.md tells of them: toes that stand still in a whole clip creep by
+less than 2 mm a frame in transitions that blend unseen; and an upper body is carried about by hips not its own.
 """
 
 from __future__ import annotations
@@ -52,14 +53,26 @@ def longest_expected(library: Library, report: dict[str, Any]) -> np.ndarray:
     return expected
 
 
-@pytest.mark.parametrize(
-    "script",
-    [*(path.read_text(encoding="utf-8") for path in EXAMPLES), *map(random_script, range(6))],
-    ids=[*(path.stem for path in EXAMPLES), *(f"random {seed}" for seed in range(6))],
-)
-def test_no_joint_jumps(script, demo_library):
-    plan, diagnostics = mlmg_lang.compile(script, demo_library)
+def check(script: str, library: Library, creep: float = 1e-3) -> None:
+    plan, diagnostics = mlmg_lang.compile(script, library)
     assert plan is not None, diagnostics
-    performance = mlmg_lang.play(plan, demo_library)
-    taken = steps(demo_library, poses_from_bvh(performance.bvh))
-    assert (taken <= 1.5 * longest_expected(demo_library, performance.report) + 1e-3).all()
+    performance = mlmg_lang.play(plan, library)
+    taken = steps(library, poses_from_bvh(performance.bvh))
+    assert (taken <= np.maximum(1.5 * longest_expected(library, performance.report), creep)).all()
+
+
+@pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
+def test_no_joint_jumps_in_the_examples(path, demo_library):
+    check(path.read_text(encoding="utf-8"), demo_library)
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_no_joint_jumps_in_a_random_script(seed, demo_library):
+    check(random_script(seed), demo_library)
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_no_joint_of_the_whole_body_jumps_on_real_clips(seed, reference_library):
+    draw = random.Random(seed)
+    motions = draw.choices(reference_library.root.motions, k=12)
+    check("\n".join(f"{motion} for {draw.randint(1, 5)} sec" for motion in motions), reference_library, creep=0.2)

@@ -10,7 +10,6 @@ import pytest
 from mlmg_runtime.arrays import FloatArray
 from mlmg_runtime.building.build import build_library
 from mlmg_runtime.building.configuration import read_configuration
-from mlmg_runtime.built_library import BuiltLibrary
 from mlmg_runtime.bvh import Bvh, Joint, write
 from mlmg_runtime.database import write_database
 from mlmg_runtime.library import Library, open_library
@@ -213,17 +212,3 @@ def _small_clip(seed: int, n_frames: int, speed_cm_s: float, swing_deg: float) -
     turns[:, :2] *= 0.3
     turns[:, 2] = np.degrees(heading)
     return Bvh(_SMALL_JOINTS, 1.0 / 30.0, np.concatenate((place, turns), axis=1))
-
-
-@pytest.fixture(scope="session")
-def reference_built(build_reference: Callable[..., BuiltLibrary]) -> BuiltLibrary:
-    """Return the reference library as it was built."""
-    return build_reference("reference")
-
-
-@pytest.fixture(scope="session")
-def reference_library(reference_built: BuiltLibrary, tmp_path_factory: pytest.TempPathFactory) -> Library:
-    """Return the reference library, written and opened."""
-    path = tmp_path_factory.mktemp("opened") / "reference.mlmg"
-    write_database(reference_built, path)
-    return open_library(path)
