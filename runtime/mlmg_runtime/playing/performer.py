@@ -5,9 +5,8 @@ The performer decides; it works on frame numbers alone and makes a timeline. Syn
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from itertools import takewhile
 
 from mlmg_runtime.errors import PlayError
 from mlmg_runtime.library import Library
@@ -47,6 +46,19 @@ class _Track:
                 self.position = segment.after
 
 
+@dataclass(frozen=True, slots=True)
+class _Departure:
+    """How a graph gets into another motion: where it sets out, at which output frame, and along which path."""
+
+    position: Position
+    time: int
+    path: Path
+
+    @property
+    def arrives(self) -> int:
+        return self.time + self.path.n_frames
+
+
 @dataclass(slots=True)
 class Performer:
     """A character that plays motions of a library from the first frame of `start` on.
@@ -69,9 +81,10 @@ class Performer:
     # What can be asked of a character
 
     def bring(self, layers: Sequence[tuple[str, Sequence[str]]]) -> None:
-        """Bring graphs to one of their candidates each, highest graph first; `now` is when all have arrived.
+        """Bring graphs to one of their candidates each; `now` is when all have arrived.
 
-        Graphs below a named one that run and are not named are ended.
+        The highest graphs come first; those of one level set out at the same time, when all above have arrived. Graphs
+        below a named one that run and are not named are ended.
 
         Parameters
         ----------
@@ -82,15 +95,11 @@ class Performer:
         PlayError
             If no candidate of a graph can be reached.
         """
-        named = [graph for graph, _ in layers]
-        self._end([g for g in self._running if g not in named and any(a in named for a in self.library.ancestors(g))])
-        for graph, candidates in layers:
-            if self.motion(graph) in candidates:
-                continue
-            if self.library.parent(graph) is None:
-                self._change_root(candidates)
-            else:
-                self._change_part(graph, candidates)
+        named = dict(layers)
+        self._end([graph for graph in self._below(named) if graph not in named])
+        for depth in sorted(set(map(self._depth, named))):
+            level = {graph: candidates for graph, candidates in layers if self._depth(graph) == depth}
+            self._change({graph: level[graph] for graph in level if self.motion(graph) not in level[graph]})
 
     def hold(self, n_frames: int) -> None:
         """Let `n_frames` output frames pass in what is playing."""
@@ -103,10 +112,7 @@ class Performer:
     def play_out(self, graph: str) -> None:
         """Let the motion that drives `graph` play to its clip's last frame, everything else going on meanwhile."""
         track = self._driver(graph)
-        if track.position.motion != track.home:
-            path = find_path(track.graph, track.position, [track.home], self._allowed(track.graph.name))
-            if path is not None:
-                track.play(play_along(path.transitions, track.graph.window, track.position, track.time))
+        self._lead_home(track)
         rest = int(track.graph.n_frames[track.position.motion]) - track.position.frame
         track.play(play_clip(track.time, track.position, rest))
         self._hold_until(track.time)
@@ -133,67 +139,81 @@ class Performer:
 
     # Changing what plays
 
-    def _change_root(self, candidates: Sequence[str]) -> None:
-        """Lead the whole body into the candidate that is reached soonest, after all parts have come back."""
-        root = self.library.root
-        self._end([graph for graph in self._running if graph != root.name])
-        track = self._running[root.name]
-        path = find_path(root, track.position, [root.index[motion] for motion in candidates])
-        if path is None:
-            raise _unreachable(root, self.motion(root.name), candidates)
-        self._take(track, path)
+    def _change(self, changing: Mapping[str, Sequence[str]]) -> None:
+        """Lead graphs of one level into one of their candidates each, at the same time, after what runs below them."""
+        self._end(self._below(changing))
+        self._end_detours(changing)
+        found = {graph: self._departure(graph, changing) for graph in changing}
+        departures = {graph: departure for graph, departure in found.items() if departure is not None}
+        if len(departures) < len(changing):
+            self._end([graph for graph in changing if graph not in departures])
+            # Time has passed: the others are asked anew.
+            self._change({graph: changing[graph] for graph in departures})
+            return
+        for graph, departure in departures.items():
+            self._set_out(graph, departure)
+        self._hold_until(max((departure.arrives for departure in departures.values()), default=self.now))
 
-    def _change_part(self, graph: str, candidates: Sequence[str]) -> None:
-        """Lead a body part into the candidate that fits what the graph above plays best, by OMS."""
+    def _departure(self, graph: str, changing: Mapping[str, Sequence[str]]) -> _Departure | None:
+        """Return how a graph gets into the best of its candidates; None if that is what the graph above plays."""
         own = self.library.by_name[graph]
-        parent = self.library.parent(graph)
-        assert parent is not None
-        above = self.motion(parent)
-        if above not in own.index:
-            raise PlayError(f"{graph} cannot leave {above}, which is not on it (rule 1)")
-        self._end([g for g in self._running if graph in self.library.ancestors(g)])
-        fitting = sorted(candidates, key=lambda motion: float(own.oms[own.index[above], own.index[motion]]))
-        for motion in fitting:
-            if motion == above:
-                self._end([graph])
-                return
-            if self._lead_part(own, own.index[motion]):
-                return
-        raise _unreachable(own, self.motion(graph), candidates)
+        above = None if own.parent is None else self.motion(own.parent)
+        for choice in _choices(own, above, changing[graph]):
+            if above in choice:
+                return None
+            departure = self._soonest(own, [own.index[motion] for motion in choice], changing)
+            if departure is not None:
+                return departure
+        names = ", ".join(changing[graph])
+        raise PlayError(
+            f"no walk on {graph} leads from {self.motion(graph)} to {names}; see `mlmg info` for what was lost"
+        )
 
-    def _lead_part(self, graph: MotionGraph, target: int) -> bool:
-        if graph.name in self._running:
-            track = self._running[graph.name]
-            path = find_path(graph, track.position, [target])
-            if path is None:
-                return False
-        else:
-            found = self._way_out(graph, target)
-            if found is None:
-                return False
-            time, position, path = found
-            track = _Track(graph, position.motion, position, time)
-            self._running[graph.name] = track
-        self._take(track, path)
-        return True
-
-    def _way_out(self, graph: MotionGraph, target: int) -> tuple[int, Position, Path] | None:
-        """Return when and where a part leaves the graph above, and its path to `target`: the soonest to arrive."""
-        best: tuple[int, Position, Path] | None = None
+    def _soonest(self, own: MotionGraph, targets: Sequence[int], joining: Collection[str]) -> _Departure | None:
+        """Return the departure that arrives soonest in one of `targets`; None if no walk leads there."""
+        best: _Departure | None = None
         seen: set[Position] = set()
-        for clip in self._clips_above(graph):
-            if clip.first in seen or (best is not None and clip.begin + graph.window > best[0] + best[2].n_frames):
+        for time, position in self._starts(own, joining):
+            if position in seen or (best is not None and time + own.window > best.arrives):
                 break
-            seen.add(clip.first)
-            path = find_path(graph, clip.first, [target])
-            if path is not None and (best is None or clip.begin + path.n_frames < best[0] + best[2].n_frames):
-                best = clip.begin, clip.first, path
+            seen.add(position)
+            path = find_path(own, position, targets)
+            if path is not None and (best is None or time + path.n_frames < best.arrives):
+                best = _Departure(position, time, path)
         return best
 
-    def _take(self, track: _Track, path: Path) -> None:
-        track.play(play_along(path.transitions, track.graph.window, track.position, track.time))
-        track.home = path.arrival.motion
-        self._hold_until(track.time)
+    def _starts(self, own: MotionGraph, joining: Collection[str]) -> Iterator[tuple[int, Position]]:
+        """Yield when and where a graph may set out: where it is, or, without end, where the graph above will be."""
+        if own.name in self._running:
+            yield self._running[own.name].time, self._running[own.name].position
+        else:
+            yield from ((clip.begin, clip.first) for clip in self._clips_above(own, joining))
+
+    def _set_out(self, graph: str, departure: _Departure) -> None:
+        own = self.library.by_name[graph]
+        if graph not in self._running:
+            self._running[graph] = _Track(own, departure.position.motion, departure.position, departure.time)
+        track = self._running[graph]
+        track.play(play_along(departure.path.transitions, own.window, track.position, track.time))
+        track.home = departure.path.arrival.motion
+
+    def _end_detours(self, joining: Collection[str]) -> None:
+        """Let the graphs that parts are about to leave come back from a way round that the parts could not mind."""
+        for graph in joining:
+            parent = self.library.parent(graph)
+            if parent is not None and graph not in self._running:
+                track = self._driver(parent)
+                if self._path_home(track, joining) is None:
+                    self._lead_home(track)
+
+    def _lead_home(self, track: _Track) -> None:
+        """Let a graph come back to its motion if it is on a way round."""
+        path = self._path_home(track)
+        if track.position.motion != track.home and path is not None:
+            track.play(play_along(path.transitions, track.graph.window, track.position, track.time))
+
+    def _path_home(self, track: _Track, joining: Collection[str] = ()) -> Path | None:
+        return find_path(track.graph, track.position, [track.home], self._allowed(track.graph.name, joining))
 
     # Ending parts (rule 2)
 
@@ -202,11 +222,11 @@ class Performer:
 
         The lowest come first, parts of one level at the same time.
         """
-        above = {graph: self.library.ancestors(graph) for graph in self._running}
-        depth = {graph: len(above[graph]) for graph in above if not {graph, *above[graph]}.isdisjoint(graphs)}
-        for level in sorted(set(depth.values()), reverse=True):
+        below = self._below(graphs)
+        ended = [graph for graph in self._running if graph in graphs or graph in below]
+        for depth in sorted(set(map(self._depth, ended)), reverse=True):
             now = self.now
-            ending = [graph for graph in depth if depth[graph] == level]
+            ending = [graph for graph in ended if self._depth(graph) == depth]
             ways = [self._way_back(self._running[graph]) for graph in ending]
             for graph, way in zip(ending, ways, strict=True):
                 self._running[graph].play(way)
@@ -218,7 +238,7 @@ class Performer:
 
     def _way_back(self, track: _Track) -> tuple[Segment, ...]:
         deadline = self.now + round(LONGEST_RETURN_S * self.library.frame_rate)
-        above = list(takewhile(lambda clip: clip.begin <= deadline, self._clips_above(track.graph, deadline)))
+        above = list(self._clips_above(track.graph, deadline=deadline))
         way = find_return(track.graph, track.position, track.time, above, deadline)
         if way is not None:
             return way
@@ -235,12 +255,14 @@ class Performer:
                     if track.time >= self.now:
                         break
 
-    def _stay(self, track: _Track, joining: MotionGraph | None = None) -> Iterator[Segment]:
-        """Yield what a track will play; `joining` is a part that is about to run below it."""
+    def _stay(self, track: _Track, joining: Collection[str] = ()) -> Iterator[Segment]:
+        """Yield what a track will play; `joining` are parts that are about to run below it."""
         allowed = self._allowed(track.graph.name, joining)
         return stay(self.library, track.graph, track.home, track.position, track.time, allowed)
 
-    def _clips_above(self, graph: MotionGraph, deadline: int | None = None) -> Iterator[Clip]:
+    def _clips_above(
+        self, graph: MotionGraph, joining: Collection[str] = (), deadline: int | None = None
+    ) -> Iterator[Clip]:
         """Yield the clips that the graph above will play, as far as they are motions of `graph` and in its indices.
 
         Where one blend follows another, the clip between them is a single moment, of no frames. Ends with the first
@@ -250,7 +272,7 @@ class Performer:
         assert parent is not None
         track = self._driver(parent)
         before: Segment | None = None
-        for segment in self._stay(track, graph):
+        for segment in self._stay(track, joining):
             if deadline is not None and segment.begin > deadline:
                 return
             clip = segment if isinstance(segment, Clip) else Clip(segment.begin, segment.begin, segment.source, 0)
@@ -260,17 +282,37 @@ class Performer:
                 yield Clip(clip.begin, clip.end, first, clip.n_source)
             before = segment
 
-    def _allowed(self, graph: str, joining: MotionGraph | None = None) -> frozenset[int]:
+    def _allowed(self, graph: str, joining: Collection[str] = ()) -> frozenset[int]:
         """Return the motions that a way round on `graph` may pass: those that all running parts below it are on."""
-        below = [track.graph for name, track in self._running.items() if graph in self.library.ancestors(name)]
-        below += [joining] if joining is not None else []
-        own = self.library.by_name[graph]
-        return frozenset(
-            index for index, motion in enumerate(own.motions) if all(motion in part.index for part in below)
-        )
+        below = [g for g in {*self._running, *joining} if graph in self.library.ancestors(g)]
+        parts = [self.library.by_name[g] for g in below]
+        motions = self.library.motions(graph)
+        return frozenset(i for i, motion in enumerate(motions) if all(motion in part.index for part in parts))
+
+    # Who is where in the tree
 
     def _driver(self, graph: str) -> _Track:
         return next(self._running[g] for g in (graph, *self.library.ancestors(graph)) if g in self._running)
+
+    def _below(self, graphs: Collection[str]) -> list[str]:
+        """Return the running graphs that lie below one of `graphs`."""
+        return [graph for graph in self._running if any(above in graphs for above in self.library.ancestors(graph))]
+
+    def _depth(self, graph: str) -> int:
+        return len(self.library.ancestors(graph))
+
+
+def _choices(own: MotionGraph, above: str | None, candidates: Sequence[str]) -> Sequence[Sequence[str]]:
+    """Return candidates in the order in which they are tried, together where the one that is reached soonest wins.
+
+    On the root graph they are tried together; below it each alone, first what fits best to the motion `above` by OMS.
+    """
+    if above is None:
+        return [candidates]
+    if above not in own.index:
+        raise PlayError(f"{own.name} cannot leave {above}, which is not on it (rule 1)")
+    fits = own.oms[own.index[above]]
+    return [[motion] for motion in sorted(candidates, key=lambda motion: float(fits[own.index[motion]]))]
 
 
 def _cut(segment: Segment, end: int) -> Segment:
@@ -278,8 +320,3 @@ def _cut(segment: Segment, end: int) -> Segment:
     if isinstance(segment, Clip) and segment.end > end:
         return Clip(segment.begin, end, segment.first, end - segment.begin)
     return segment
-
-
-def _unreachable(graph: MotionGraph, motion: str, candidates: Sequence[str]) -> PlayError:
-    names = ", ".join(candidates)
-    return PlayError(f"no walk on {graph.name} leads from {motion} to {names}; see `mlmg info` for what was lost")

@@ -1,6 +1,6 @@
 """A character is asked random things; what it then plays is held against the rules of the language, frame by frame."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Collection, Iterator
 from itertools import islice, pairwise, takewhile
 from typing import Any
 
@@ -180,29 +180,46 @@ class Model:
         track = self.performer.timeline().tracks[graph]
         return place([segment for segment in track if segment.begin <= time][-1], time)
 
-    def future(self, graph: str) -> Iterator[tuple[int, Position]]:
-        """Yield, frame by frame, when and where on `graph` the graph above it will be if it stays in its motion."""
-        own, above = self.library.by_name[graph], self.driver(self.library.parent(graph))
-        driving = self.library.by_name[above]
-        minded = [self.library.by_name[g].index for g in self.below(above) | {graph}]
-        allowed = [driving.index[motion] for motion in driving.motions if all(motion in on for on in minded)]
+    def above(self, graph: str) -> str:
+        """Return the motion that the graph above a part plays."""
+        return self.home[self.driver(self.library.parent(graph))]
+
+    def future(self, graph: str, setting_out: Collection[str] = ()) -> Iterator[tuple[int, Position]]:
+        """Yield, frame by frame, when and where on `graph` the graph above it will be if it stays in its motion.
+
+        It minds the parts that run below it, and those that are setting out. A way round that these cannot mind is
+        ended first.
+        """
+        above = self.driver(self.library.parent(graph))
+        own, driving = self.library.by_name[graph], self.library.by_name[above]
+        home = driving.index[self.home[above]]
+        running, joining = self.below(above), {g for g in setting_out if above in self.library.ancestors(g)}
         when, at = self.where(above, self.now)
-        for segment in stay(self.library, driving, driving.index[self.home[above]], at, when, allowed):
+        allowed = self.allowed(above, running | joining)
+        if at.motion != home and self.soonest(driving, at, [home], allowed) is None:
+            back = self.soonest(driving, at, [home], self.allowed(above, running))
+            when, at = when + back.n_frames, back.transitions[-1].arrival
+        for segment in stay(self.library, driving, home, at, when, allowed):
             for moment in range(segment.begin, segment.end if isinstance(segment, Clip) else segment.begin + 1):
                 _, there = place(segment, moment)
                 name = driving.motions[there.motion]
                 if name in own.index:
                     yield moment, Position(own.index[name], there.frame)
 
+    def allowed(self, graph: str, parts: set[str]) -> list[int]:
+        """Return the motions of a graph that some parts are on, too."""
+        own = self.library.by_name[graph]
+        on = [self.library.by_name[part].index for part in parts]
+        return [own.index[motion] for motion in own.motions if all(motion in index for index in on)]
+
     # What can be asked
 
     def bring(self, layers: Layers) -> None:
-        named = {graph for graph, _ in layers}
-        self.end({g for g in self.home if g not in named and not named.isdisjoint(self.library.ancestors(g))})
-        for graph, candidates in layers:
-            if self.home[self.driver(graph)] not in candidates:
-                self.end(self.below(graph))
-                self.change(graph, candidates)
+        named = dict(layers)
+        self.end({g for g in self.home if g not in named and not named.keys().isdisjoint(self.library.ancestors(g))})
+        for depth in (0, 1, 2):
+            level = [g for g in named if len(self.library.ancestors(g)) == depth]
+            self.change({g: named[g] for g in level if self.home[self.driver(g)] not in named[g]})
 
     def end(self, graphs: set[str]) -> None:
         """End parts and those below them, lowest first, those of one level at the same time."""
@@ -227,23 +244,37 @@ class Model:
             return when + own.window
         return way[-1].end if way else when
 
-    def change(self, graph: str, candidates: list[str]) -> None:
-        own = self.library.by_name[graph]
+    def change(self, level: dict[str, list[str]]) -> None:
+        """Bring siblings to their candidates: all return that have to, then all others set out in the same frame."""
+        self.end({below for graph in level for below in self.below(graph)})
+        targets = {graph: self.targets(graph, candidates) for graph, candidates in level.items()}
+        returning = {g for g in level if self.library.parent(g) and targets[g] == [self.above(g)]}
+        self.end(returning)
+        setting_out = level.keys() - returning
+        walks = {graph: self.walk(graph, targets[graph], setting_out) for graph in setting_out}
+        for graph, (arrives, motion) in walks.items():
+            self.now = max(self.now, arrives)
+            self.home[graph] = motion
+
+    def targets(self, graph: str, candidates: list[str]) -> list[str]:
+        """Return the candidates of the root, or that of a part that fits the rest of the body best."""
         if graph == self.library.root.name:
-            targets = candidates
+            return candidates
+        own = self.library.by_name[graph]
+        fits = [own.oms[own.index[self.above(graph)], own.index[motion]] for motion in candidates]
+        return [candidates[fits.index(min(fits))]]
+
+    def walk(self, graph: str, targets: list[str], setting_out: set[str]) -> tuple[int, str]:
+        """Return when a graph arrives in which motion."""
+        own = self.library.by_name[graph]
+        if graph in self.home:
+            starts = dict([self.where(graph, self.now)])
         else:
-            above = self.home[self.driver(self.library.parent(graph))]
-            fits = [own.oms[own.index[above], own.index[motion]] for motion in candidates]
-            targets = [candidates[fits.index(min(fits))]]
-            if targets == [above]:
-                self.end({graph})
-                return
-        starts = dict([self.where(graph, self.now)] if graph in self.home else islice(self.future(graph), 400))
+            starts = dict(islice(self.future(graph, setting_out), 400))
         first = min(starts)
         later = {time - first: at for time, at in starts.items()}
         walk = self.soonest(own, starts[first], [own.index[motion] for motion in targets], later=later)
-        self.now = first + walk.n_frames
-        self.home[graph] = targets[walk.target]
+        return first + walk.n_frames, targets[walk.target]
 
 
 @settings(max_examples=120)
@@ -266,15 +297,15 @@ def test_everything_asked_is_done_as_the_rules_say_and_as_soon_as_can_be(
 
 @settings(max_examples=100)
 @given(seed=SEEDS)
-def test_where_no_part_runs_layers_at_once_are_layers_one_after_the_other(
+def test_where_no_part_runs_levels_at_once_are_levels_one_after_the_other(
     seed: int, moves, ask, small_library: Library
 ) -> None:
     start = small_library.root.motions[seed % 4]
     at_once, one_by_one = Performer(small_library, start), Performer(small_library, start)
     call, what = ask(at_once, moves(seed)[0])
     if call == "bring":
-        for layer in what:
-            one_by_one.bring([layer])
+        for depth in (0, 1, 2):
+            one_by_one.bring([layer for layer in what if len(small_library.ancestors(layer[0])) == depth])
         assert at_once.timeline() == one_by_one.timeline()
 
 
@@ -353,6 +384,72 @@ def test_siblings_run_at_the_same_time(small_library: Library) -> None:
     assert performer.runs("Right-Arm")
     performer.bring([("Right-Arm", ["Wave"])])
     assert performer.motion("Left-Arm") == performer.motion("Right-Arm") == "Wave"
+
+
+def test_siblings_set_out_in_the_same_frame_and_have_arrived_when_the_last_of_them_has(rewired) -> None:
+    library = rewired(
+        {
+            "Full-Body": [("Stand", 110, "Stand", 20)],
+            "Left-Arm": [("Stand", 10, "Wave", 20)],
+            "Right-Arm": [("Stand", 12, "Reach", 30)],
+        }
+    )
+    performer = Performer(library, "Stand")
+    performer.bring([("Left-Arm", ["Wave"]), ("Right-Arm", ["Reach"])])
+    tracks = performer.timeline().tracks
+    assert [(s.begin, s.end) for s in tracks["Left-Arm"][:2]] == [(0, 10), (10, 16)]
+    assert [(s.begin, s.end) for s in tracks["Right-Arm"]] == [(0, 12), (12, 18)]
+    assert performer.now == 18
+
+
+@pytest.mark.parametrize(
+    ("layers", "passed"),
+    [
+        ([("Right-Arm", ["Reach"])], {"Stand", "Stroll"}),
+        ([("Left-Arm", ["Wave"]), ("Right-Arm", ["Reach"])], {"Stand", "Reach"}),
+        ([("Right-Arm", ["Reach"]), ("Left-Arm", ["Wave"])], {"Stand", "Reach"}),
+    ],
+)
+def test_the_body_passes_only_motions_that_all_siblings_which_set_out_are_on(
+    rewired, layers: Layers, passed: set[str]
+) -> None:
+    by_stroll = [("Stand", 90, "Stroll", 20), ("Stroll", 30, "Stand", 8)]
+    by_reach = [("Stand", 90, "Reach", 20), ("Reach", 60, "Stand", 8)]
+    library = rewired(
+        {
+            "Full-Body": by_stroll + by_reach,
+            "Left-Arm": [("Stand", 20, "Wave", 20)],
+            "Right-Arm": [("Stand", 20, "Reach", 20)],
+        }
+    )
+    performer = Performer(library, "Stand")
+    performer.hold(50)
+    performer.bring(layers)
+    root = library.root
+    track = performer.timeline().tracks["Full-Body"]
+    assert {root.motions[segment.first.motion] for segment in track if isinstance(segment, Clip)} == passed
+
+
+def test_a_sibling_that_is_ended_has_come_back_before_the_others_set_out(small_library: Library) -> None:
+    performer = Performer(small_library, "Stand")
+    performer.bring([("Left-Arm", ["Wave"])])
+    performer.bring([("Right-Arm", ["Reach"]), ("Left-Arm", ["Stand"])])
+    (left,), (right,) = (runs(performer.timeline(), graph) for graph in ("Left-Arm", "Right-Arm"))
+    assert left[-1].end <= right[0].begin
+    assert not performer.runs("Left-Arm")
+
+
+def test_a_part_leaves_no_way_round_on_which_it_could_not_stay_before_it_has_ended(rewired) -> None:
+    # Sway is not on Upper-Body, and the only way from Stroll back to Stand passes it.
+    way_round = [("Stand", 60, "Stroll", 20), ("Stroll", 40, "Sway", 20), ("Sway", 40, "Stand", 8)]
+    library = rewired({"Full-Body": way_round, "Upper-Body": [("Stand", 50, "Wave", 20)]})
+    performer = Performer(library, "Stand")
+    performer.hold(80)
+    performer.bring([("Upper-Body", ["Wave"])])
+    # From frame 33 of Stroll it is 7 frames to Sway, 19 in it, 41 in Stand, and three transitions.
+    assert performer.now == 80 + 7 + 8 + 19 + 8 + 41 + 8
+    assert performer.timeline().tracks["Upper-Body"][0].first == Position(0, 9)
+    check_timeline(library, performer)
 
 
 def test_a_command_ends_the_parts_below_it_that_it_does_not_name(small_library: Library) -> None:
