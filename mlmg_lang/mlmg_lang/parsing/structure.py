@@ -150,12 +150,10 @@ class _Structure:
             message = "this lasts no time" if number == 0 else "this is shorter than a frame"
             fix = Fix(whole, "", safe=False)
             yield Diagnostic("MS045", message, amount.span, help="leave it out, or give it time", fixes=(fix,))
-        elif (number if seconds is None else seconds) > LONGEST_S:
-            message = (
-                "this is longer than a day"
-                if unit_of(amount) != "cycles"
-                else "this is more cycles than a day has seconds"
-            )
+        elif seconds is not None and seconds > LONGEST_S:
+            yield Diagnostic("MS046", "this is longer than a day", amount.span, help="check number and unit")
+        elif unit_of(amount) == "cycles" and number > LONGEST_S:
+            message = "this is more cycles than a day has seconds"
             yield Diagnostic("MS046", message, amount.span, help="check number and unit")
 
     # --- motion expressions ---
