@@ -145,14 +145,16 @@ class _Reader:
                 self.diagnostics.append(Diagnostic("MS050", message, parameter.name.span, "give it another name"))
             kinds.setdefault(name, None)
         places: dict[str, Span] = {}
-        for name, kind, span in self._uses(let, kinds):
+        uses = tuple(self._uses(let, kinds))
+        for name, kind, span in (*_defaults(let), *uses):
             if kinds[name] in (None, kind):
                 kinds[name] = kind
                 places.setdefault(name, span)
             else:
                 self._mixed(name, kind, span, places[name])
+        used = {name for name, _, _ in uses}
         for parameter in let.parameters or ():
-            if parameter.name.sound and kinds[normal(parameter.name.text)] is None:
+            if parameter.name.sound and normal(parameter.name.text) not in used:
                 self._unused(let, parameter)
         command = let.command
         lasts = command.duration is not None or command.once is not None
@@ -171,10 +173,6 @@ class _Reader:
 
     def _uses(self, let: syntax.Let, kinds: Kinds) -> Iterator[tuple[str, Kind, Span]]:
         """Yield where parameters are used, and as what."""
-        for parameter in let.parameters or ():
-            if parameter.default is not None:
-                kind = Kind.DURATION if isinstance(parameter.default, syntax.Quantity) else Kind.MOTION
-                yield normal(parameter.name.text), kind, parameter.default.span
         passed: dict[Span, Kind | None] = {}
         for node in syntax.walk(let.command):
             if isinstance(node, syntax.Call):
@@ -197,3 +195,11 @@ class _Reader:
             name = normal(argument.name.text) if argument.name else (names[at] if at < len(names) else "")
             if isinstance(argument.value, syntax.Reference):
                 yield argument.value.span, signature.kinds.get(name)
+
+
+def _defaults(let: syntax.Let) -> Iterator[tuple[str, Kind, Span]]:
+    """Yield the parameters that have a default, and what that is."""
+    for parameter in let.parameters or ():
+        if parameter.default is not None:
+            kind = Kind.DURATION if isinstance(parameter.default, syntax.Quantity) else Kind.MOTION
+            yield normal(parameter.name.text), kind, parameter.default.span
