@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from mlmg_lang.front_end import analyse
-from mlmg_lang.planning.resolved import Command, End, Wait
+from mlmg_lang.planning.resolved import Command, Cycles, End, Once, Seconds, Wait
 from mlmg_lang.source import Source
 
 Resolves = Callable[..., list[dict[str, tuple[str, ...]]]]
@@ -208,13 +208,20 @@ def test_a_plan_has_waits_ends_and_durations_in_seconds(reference: Any) -> None:
     assert plan is not None
     walk, wait, end, idle = plan.statements
     assert isinstance(walk, Command)
-    assert walk.duration_s == 120.0
+    assert walk.duration == Seconds(120.0)
     assert isinstance(wait, Wait)
-    assert wait.duration_s == 0.25
+    assert wait.duration == Seconds(0.25)
     assert isinstance(end, End)
     assert end.graph == "Upper-Body"
     assert isinstance(idle, Command)
-    assert idle.duration_s == 1.5
+    assert idle.duration == Seconds(1.5)
+
+
+def test_a_plan_has_cycles_and_once(reference: Any) -> None:
+    plan = analyse(Source("WALK for 1.5 cycles\nwait 2 cycles\nTALK once\nIDLE"), reference).resolved
+    assert plan is not None
+    durations = [statement.duration for statement in plan.statements if isinstance(statement, Command | Wait)]
+    assert durations == [Cycles(1.5), Cycles(2.0), Once(), None]
 
 
 def test_layers_stand_highest_first_whatever_the_order_of_the_text(left_hand: Any) -> None:
@@ -273,7 +280,8 @@ def test_an_unknown_start_is_an_error_without_a_place(reference: Any) -> None:
 def test_a_mistake_in_one_command_brings_none_in_the_next(codes: Codes, reference: Any) -> None:
     assert codes("Idle_02\nWLAK\nUpper-Body TALK\nend Upper-Body", reference) == ["MS021"]
     assert codes("Idle_02\nUpper-Body TALK\nUpper-Body TALK\nend Upper-Body", reference) == ["MS040"]
-    assert codes("repeat 2 { WALK }\nUpper-Body TALK", reference) == ["MS060"]
+    assert codes("Idle_02\nrepeat 2 { WLAK }\nUpper-Body TALK", reference) == ["MS021"]
+    assert codes("Idle_02\nchoose { WLAK | WALK }\nUpper-Body TALK", reference) == ["MS021"]
 
 
 def test_after_a_command_for_the_whole_body_everything_is_certain_again(codes: Codes, reference: Any) -> None:
