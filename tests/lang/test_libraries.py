@@ -54,7 +54,7 @@ def test_settings_need_not_name_a_library(project: Path) -> None:
     [
         ("library = 3", 1, "`library` should be the path of a library, as text; found 3"),
         ('\nlibrary = ""', 2, "`library` should be the path of a library, as text; found ''"),
-        ("\nlibrary = ", 2, "not valid TOML: Invalid value"),
+        ("\nlibrary = ", 2, "not valid TOML: expected a value: a text stands in double quotes, a list in [ ]"),
         ('libary = "x"', 1, "unknown key `libary`; expected library; did you mean `library`?"),
         ('library = "x"\n[view]\nup = "z"', 2, "unknown key `view`; expected library"),
     ],

@@ -8,10 +8,18 @@ from __future__ import annotations
 
 import argparse
 import os
+from collections.abc import Iterator, Sequence
 from contextlib import nullcontext
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from mlmg_lang.commands.console import DONE, ProgressLine, refuse_overwriting, refuse_unwritable, tell
+from mlmg_lang.commands.console import DONE, ProgressLine, UsageError, refuse_overwriting, refuse_unwritable, tell
+
+if TYPE_CHECKING:
+    from mlmg_runtime.built_library import GraphReport
+    from mlmg_runtime.motion_graph import MotionGraph
+
+_MOST_NAMES = 6
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -41,6 +49,7 @@ def run(arguments: argparse.Namespace) -> int:
     from mlmg_runtime.building.configuration import read_configuration
     from mlmg_runtime.database import write_database
 
+    _refuse_what_is_no_configuration(arguments.configuration)
     configuration = read_configuration(arguments.configuration)
     output = arguments.output or arguments.configuration.with_suffix(".mlmg")
     refuse_overwriting([output], [arguments.configuration, *(clip.path for clip in configuration.clips)])
@@ -52,19 +61,14 @@ def run(arguments: argparse.Namespace) -> int:
         write_database(built, output)
     finally:
         progress.clear()
+    if configuration.left_out:
+        n_left_out = len(configuration.left_out)
+        tell(f"mlmg build: note: {_clips(n_left_out)} on no graph and left out: {_some(configuration.left_out)}")
     for warning in built.warnings:
         tell(f"mlmg build: warning: {warning}")
     for graph, report in zip(built.graphs, built.reports, strict=True):
-        for motion in report.lost_motions:
-            tell(
-                f"mlmg build: warning: {graph.name}: no endless walk passes {motion}; it can be started in, not led to"
-            )
-        if report.bridges:
-            widest = max(distance for _, _, distance in report.bridges)
-            tell(
-                f"mlmg build: note: {graph.name}: {len(report.bridges)} of {report.n_transitions} transitions are "
-                f"bridges, up to {widest:.3g} apart where {report.threshold:.3g} is smooth: feet may slide there"
-            )
+        for line in _told_of(graph, report):
+            tell(f"mlmg build: {line}")
     n_frames = sum(poses.n_frames for poses in built.poses.values())
     n_transitions = sum(report.n_transitions for report in built.reports)
     tell(
@@ -72,6 +76,48 @@ def run(arguments: argparse.Namespace) -> int:
         f"{n_transitions} transitions; `mlmg info {output}` tells more"
     )
     return DONE
+
+
+def _refuse_what_is_no_configuration(path: Path) -> None:
+    """Raise `UsageError` for what people name instead: the folder of the clips, or one of them."""
+    if path.is_dir():
+        inside = sorted(path.glob("*.toml"))
+        meant = f"did you mean {inside[0]}?" if inside else "write one, as docs/library.md shows, and name it"
+        raise UsageError(f"{path} is a folder; expected a library's configuration (TOML): {meant}")
+    if path.suffix.lower() == ".bvh":
+        raise UsageError(f"{path} is a clip; expected a library's configuration (TOML), which names the clips")
+
+
+def _told_of(graph: MotionGraph, report: GraphReport) -> Iterator[str]:
+    """Yield what a person should know of a graph: what cannot be reached, and what will not look smooth."""
+    if not report.n_transitions and len(graph.motions) > 1:
+        yield (
+            f"warning: {graph.name}: no motion can follow another, nor itself: there is no transition. "
+            "A greater `threshold`, a smaller `window` or longer clips may help"
+        )
+    elif report.lost_motions:
+        yield (
+            f"warning: {graph.name}: no transition leads to {_some(report.lost_motions)} and on from there: "
+            "a script can start there, but never come there"
+        )
+    if report.bridges:
+        widest = max(distance for _, _, distance in report.bridges)
+        yield (
+            f"note: {graph.name}: {len(report.bridges)} of {report.n_transitions} transitions are bridges, "
+            f"up to {widest:.3g} apart where {report.threshold:.3g} is smooth: feet may slide there; "
+            "clips that lie between would help"
+        )
+
+
+def _clips(number: int) -> str:
+    return "1 clip is" if number == 1 else f"{number} clips are"
+
+
+def _some(names: Sequence[str]) -> str:
+    """Return names, but only the first of many."""
+    most = _MOST_NAMES if len(names) > _MOST_NAMES + 1 else len(names)
+    more = [f"{len(names) - most} more"] if most < len(names) else []
+    return ", ".join([*names[:most], *more])
 
 
 def _jobs(text: str) -> int:

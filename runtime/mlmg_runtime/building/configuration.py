@@ -60,7 +60,13 @@ class GraphConfiguration:
 
 @dataclass(frozen=True, slots=True)
 class LibraryConfiguration:
-    """A checked configuration; motions are in the order that decides ties. `frame_rate` None: the first clip's."""
+    """A checked configuration; motions are in the order that decides ties.
+
+    Attributes
+    ----------
+    frame_rate : None for the first clip's.
+    left_out : the names of clips that are on no graph, and so are no motions of the library.
+    """
 
     path: Path
     clips: tuple[ClipSource, ...]
@@ -69,6 +75,7 @@ class LibraryConfiguration:
     start: str | None
     graphs: tuple[GraphConfiguration, ...]
     lines: Mapping[KeyPath, int] = field(default_factory=dict, repr=False)
+    left_out: tuple[str, ...] = ()
 
 
 def read_configuration(path: Path) -> LibraryConfiguration:
@@ -120,9 +127,11 @@ class _Reader:
         self._no_double_meaning(names, graphs)
         graphs = self._with_forbidden(graphs)
         start = self._text(library, ("library", "start"), None)
+        motions = {motion for graph in graphs for motion in graph.motions}
         return LibraryConfiguration(
             path=self.file.path,
-            clips=tuple(clip for clip in clips if any(clip.name in graph.motions for graph in graphs)),
+            clips=tuple(clip for clip in clips if clip.name in motions),
+            left_out=tuple(name for name in names if name not in motions),
             frame_rate=self._positive(library, ("library", "frame_rate")),
             up=self._choice(library, ("library", "up"), ("y", "z"), "y"),
             start=None if start is None else _nfc(start),
@@ -151,12 +160,7 @@ class _Reader:
                 found.setdefault(name, ClipSource(name, path, self.file.lines.get(at)))
         found.update(named)
         if not found:
-            self._fail(
-                at,
-                f"no clip matches {', '.join(patterns)}; expected BVH files beside this configuration"
-                if patterns
-                else "no clip is named; expected globs or paths of BVH files",
-            )
+            self._fail(at, "no clip is named; expected globs or paths of BVH files")
         return list(found.values())
 
     def _matches(self, pattern: str, at: KeyPath) -> list[Path]:
@@ -167,9 +171,12 @@ class _Reader:
                 self._fail(at, f"there is no clip {path}")
             return [path]
         try:
-            return sorted(path for path in folder.glob(pattern) if path.is_file())
+            found = sorted(path for path in folder.glob(pattern) if path.is_file())
         except (ValueError, NotImplementedError):
-            return sorted(path for path in Path(pattern).parent.glob(Path(pattern).name) if path.is_file())
+            found = sorted(path for path in Path(pattern).parent.glob(Path(pattern).name) if path.is_file())
+        if not found:
+            self._fail(at, f"no clip matches {pattern}; {_what_is_in((folder / pattern).parent)}")
+        return found
 
     def _clip(self, name: str, table: Any) -> ClipSource:
         at: KeyPath = ("clips", name)
@@ -399,6 +406,8 @@ class _Reader:
 
     def _texts(self, table: dict[str, Any], at: KeyPath, default: tuple[str, ...]) -> tuple[str, ...]:
         value = table.get(str(at[-1]), list(default))
+        if isinstance(value, str):
+            self._fail(at, f'{at[-1]} must be a list of texts, as in ["{value}"], found a text alone')
         if not isinstance(value, list) or not all(isinstance(item, str) for item in value):
             self._fail(at, f"{at[-1]} must be a list of texts, found {value!r}")
         return tuple(value)
@@ -429,6 +438,18 @@ def _inside(name: str, groups: Mapping[str, tuple[str, ...]]) -> set[str]:
             found.add(member)
             waiting += groups.get(member, ())
     return found
+
+
+def _what_is_in(folder: Path) -> str:
+    """Return what there is instead of the clips that a pattern should match."""
+    if any(character in str(folder) for character in "*?["):
+        return "expected BVH files"
+    if not folder.is_dir():
+        missing = next(path for path in (*reversed(folder.parents), folder) if not path.is_dir())
+        near = did_you_mean(missing.name, (path.name for path in missing.parent.iterdir() if path.is_dir()))
+        return f"there is no folder {missing}{near}"
+    files = sorted(path.name for path in folder.iterdir() if path.suffix.lower() == ".bvh")
+    return f"{folder} has no BVH file" if not files else f"{folder} has {len(files)} BVH files, such as {files[0]}"
 
 
 def _whole(graphs: tuple[GraphConfiguration, ...]) -> GraphConfiguration:

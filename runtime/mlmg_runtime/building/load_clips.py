@@ -103,27 +103,28 @@ def _check_agreement(first: Skeleton, first_clip: ClipSource, own: Skeleton, cli
     """Refuse a clip whose joints, tree or bones differ from the first clip's."""
 
     def fail(message: str) -> None:
-        raise LibraryError(clip.path, None, f"{message}, in {first_clip.path}; the clips of a library share a skeleton")
+        whose = f"this is not the skeleton of {first_clip.path}, which all clips of the library have to share"
+        raise LibraryError(clip.path, None, f"{whose}: it {message}")
 
     bones = sum(math.hypot(*joint.offset) for joint in first.joints[first.travel + 1 :])
     tolerance = OFFSET_TOLERANCE if bones > _BONES_IN_METRES else 0.01 * OFFSET_TOLERANCE
     for name in own.names:
         if name not in first.names:
-            fail(f"has a joint `{name}` that is not there")
+            fail(f"has a joint `{name}`, which that has not")
     for index, name in enumerate(first.names):
         if name not in own.names:
-            fail(f"has no joint `{name}`, which is there")
+            fail(f"has no joint `{name}`, which that has")
         if own.names[index] != name:
-            fail(f"has the joint `{own.names[index]}` where `{name}` stands")
+            fail(f"has the joint `{own.names[index]}` where that has `{name}`")
         mine, theirs = own.joints[index], first.joints[index]
         if mine.parent != theirs.parent:
-            fail(f"hangs the joint `{name}` on `{own.names[mine.parent]}`, not on `{first.names[theirs.parent]}`")
+            fail(f"hangs the joint `{name}` on `{own.names[mine.parent]}`, that on `{first.names[theirs.parent]}`")
         if has_positions(mine) != has_positions(theirs):
             given, has = ("positions", "none") if has_positions(mine) else ("no positions", "some")
-            fail(f"gives {given} to the joint `{name}`, which has {has}")
+            fail(f"gives {given} to the joint `{name}`, that {has}")
         apart = float(np.abs(np.subtract(mine.offset, theirs.offset)).max())
         if apart > tolerance and not has_positions(mine) and index != own.travel:
-            fail(f"has the joint `{name}` at OFFSET {_offset(mine.offset)}, not {_offset(theirs.offset)}")
+            fail(f"has the joint `{name}` at OFFSET {_offset(mine.offset)}, that at {_offset(theirs.offset)}")
 
 
 def _offset(offset: tuple[float, float, float]) -> str:

@@ -7,10 +7,20 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from difflib import get_close_matches
 from pathlib import Path
-from typing import Any, NoReturn
+from types import MappingProxyType
+from typing import Any, Final, NoReturn
 
 from mlmg_runtime.building.toml_lines import KeyPath, key_lines
 from mlmg_runtime.errors import ConfigurationError
+
+_PLAINER: Final[Mapping[str, str]] = MappingProxyType(
+    {
+        "Cannot overwrite a value": "this key or table has been given before",
+        "Invalid value": "expected a value: a text stands in double quotes, a list in [ ]",
+        "Invalid statement": "expected `key = value` or a [table]",
+    }
+)
+"""What the parser says of the commonest mistakes, and what that means."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -22,9 +32,10 @@ class TomlFile:
     lines: Mapping[KeyPath, int]
 
     def fail(self, at: KeyPath, message: str) -> NoReturn:
-        """Raise a `ConfigurationError` about a key, with the line of it or of the nearest table that holds it."""
-        line = next((self.lines[at[:length]] for length in range(len(at), 0, -1) if at[:length] in self.lines), None)
-        raise ConfigurationError(self.path, line, message)
+        """Raise a `ConfigurationError` about a key, with the line of it, or of what is nearest to it."""
+        inside = min((line for path, line in self.lines.items() if path[: len(at)] == at), default=None)
+        above = (self.lines[at[:length]] for length in range(len(at) - 1, 0, -1) if at[:length] in self.lines)
+        raise ConfigurationError(self.path, inside if inside is not None else next(above, None), message)
 
     def check_keys(self, table: Mapping[str, Any], at: KeyPath, keys: Iterable[str]) -> None:
         """Raise a `ConfigurationError` if a table holds another key than these."""
@@ -58,7 +69,8 @@ def read_toml(path: Path) -> TomlFile:
         what, _, where = str(error).rpartition(" (at ")
         number = where.removeprefix("line ").split(",")[0]
         line = int(number) if number.isdigit() else len(text.splitlines())
-        raise ConfigurationError(path, line, f"not valid TOML: {what or error}") from None
+        told = _PLAINER.get(what, what or str(error))
+        raise ConfigurationError(path, line, f"not valid TOML: {told}") from None
 
 
 def did_you_mean(name: str, known: Iterable[str]) -> str:

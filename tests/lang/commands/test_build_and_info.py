@@ -46,6 +46,58 @@ def test_a_damaged_clip_leaves_the_old_library_as_it_is(built, capsys):
     assert sorted(path.name for path in built.iterdir() if path.name.startswith(".")) == []
 
 
+def test_clips_on_no_graph_are_named(folder, capsys):
+    text = (folder / "library.toml").read_text(encoding="utf-8").replace('Step = ["WALK"]', "").replace("Step =", "#")
+    (folder / "library.toml").write_text(text, encoding="utf-8")
+    assert mlmg.main(["build", "library.toml"]) == 0
+    assert "mlmg build: note: 1 clip is on no graph and left out: Step\n" in capsys.readouterr().err
+
+
+def test_of_many_clips_on_no_graph_some_are_named(folder, capsys):
+    for number in range(10):
+        (folder / f"other_{number}.bvh").write_bytes((folder / "Step.bvh").read_bytes())
+    assert mlmg.main(["build", "library.toml"]) == 0
+    names = ", ".join(f"other_{number}" for number in range(6))
+    assert f"note: 10 clips are on no graph and left out: {names}, 4 more\n" in capsys.readouterr().err
+
+
+def test_a_graph_without_transitions_is_one_warning_that_says_what_may_help(folder, capsys):
+    text = (folder / "library.toml").read_text(encoding="utf-8")
+    (folder / "library.toml").write_text(text.replace("{ quantile = 0.3 }", "1e-9"), encoding="utf-8")
+    assert mlmg.main(["build", "library.toml"]) == 0
+    (warning,) = [line for line in capsys.readouterr().err.splitlines() if "warning" in line]
+    assert warning.startswith("mlmg build: warning: Upper-Body: no motion can follow another, nor itself")
+    assert "`threshold`" in warning
+
+
+def test_motions_that_nothing_leads_to_are_one_warning_a_graph(folder, capsys):
+    rules = '\n[[transitions]]\nforbid = [["IDLE", "WALK"], ["IDLE", "TALK"], ["WALK", "IDLE"], ["TALK", "IDLE"]]\n'
+    text = (folder / "library.toml").read_text(encoding="utf-8")
+    (folder / "library.toml").write_text(text + rules, encoding="utf-8")
+    assert mlmg.main(["build", "library.toml"]) == 0
+    (warning,) = [line for line in capsys.readouterr().err.splitlines() if "warning" in line]
+    assert warning in (
+        "mlmg build: warning: Full-Body: no transition leads to Stand and on from there: "
+        "a script can start there, but never come there",
+        "mlmg build: warning: Full-Body: no transition leads to Step, Reach and on from there: "
+        "a script can start there, but never come there",
+    )
+
+
+@pytest.mark.parametrize(
+    ("named", "message"),
+    [
+        (".", ". is a folder; expected a library's configuration (TOML): did you mean library.toml?"),
+        ("empty", "empty is a folder; expected a library's configuration (TOML): write one, as docs/library.md shows"),
+        ("Step.bvh", "Step.bvh is a clip; expected a library's configuration (TOML), which names the clips"),
+    ],
+)
+def test_clips_named_instead_of_a_configuration_are_told_what_is_expected(folder, capsys, named, message):
+    (folder / "empty").mkdir()
+    assert mlmg.main(["build", named]) == 2
+    assert capsys.readouterr().err.startswith(f"mlmg build: error: {message}")
+
+
 def test_a_configuration_that_is_not_there_is_wrong_usage(folder, capsys):
     assert mlmg.main(["build", "nothing.toml"]) == 2
     assert capsys.readouterr().err == "mlmg build: error: nothing.toml: No such file or directory\n"

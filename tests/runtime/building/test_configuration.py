@@ -6,6 +6,7 @@ from mlmg_runtime.building.configuration import LibraryConfiguration, Threshold,
 from mlmg_runtime.errors import ConfigurationError
 
 CLIPS = ("Idle_01", "Walk_01", "Walk_02", "sub/Walk_01")
+KEYS = "library, clips, graph, tags, groups, transitions"
 GRAPH_KEYS = "name, joints, without, window, threshold, metric, weights, blend, motions"
 
 
@@ -13,6 +14,7 @@ GRAPH_KEYS = "name, joints, without, window, threshold, metric, weights, blend, 
 def folder(tmp_path: Path) -> Path:
     """Return a folder with a few clips, which are not read here."""
     (tmp_path / "sub").mkdir()
+    (tmp_path / "empty").mkdir()
     for clip in CLIPS:
         (tmp_path / f"{clip}.bvh").write_text("", encoding="utf-8")
     return tmp_path
@@ -36,13 +38,12 @@ def rules(*lines: str) -> str:
 MISTAKES = [
     ("[library", 1, "not valid TOML: Expected ']' at the end of a table declaration"),
     ('[library]\nclips = ["*.bvh"\n\n', 3, "not valid TOML: Unclosed array"),
-    ('[library]\nup = "y"\nup = "z"', 3, "not valid TOML: Cannot overwrite a value"),
+    ('[library]\nup = "y"\nup = "z"', 3, "not valid TOML: this key or table has been given before"),
     (b"[library]\n# caf\xe9\n", 2, "found bytes that are not UTF-8; a configuration is a UTF-8 text"),
     (
         "libary = 3",
         1,
-        "unknown key `libary`; expected one of library, clips, graph, tags, groups, transitions; "
-        "did you mean `library`?",
+        f"unknown key `libary`; expected one of {KEYS}; did you mean `library`?",
     ),
     ("library = 3", 1, "library must be a table, found 3"),
     (
@@ -50,14 +51,23 @@ MISTAKES = [
         2,
         "unknown key `clip`; expected one of clips, frame_rate, up, start; did you mean `clips`?",
     ),
-    ('[library]\nclips = "*.bvh"', 2, "clips must be a list of texts, found '*.bvh'"),
+    ('[library]\nclips = "*.bvh"', 2, 'clips must be a list of texts, as in ["*.bvh"], found a text alone'),
     ("[library]\nclips = [1]", 2, "clips must be a list of texts, found [1]"),
     ("[library]\nclips = []", 2, "no clip is named; expected globs or paths of BVH files"),
     (
-        '[library]\nclips = ["*.bhv", "x/*"]',
+        '[library]\nclips = ["*.bhv"]',
         2,
-        "no clip matches *.bhv, x/*; expected BVH files beside this configuration",
+        "no clip matches *.bhv; DIR has 3 BVH files, such as Idle_01.bvh",
     ),
+    (
+        '[library]\nclips = ["*.bvh", "sbu/*.bvh"]',
+        2,
+        "no clip matches sbu/*.bvh; there is no folder DIR/sbu; did you mean `sub`?",
+    ),
+    ('[library]\nclips = ["sub/x/*.bvh"]', 2, "no clip matches sub/x/*.bvh; there is no folder DIR/sub/x"),
+    ('[library]\nclips = ["empty/*.bvh"]', 2, "no clip matches empty/*.bvh; DIR/empty has no BVH file"),
+    ('[library]\nclips = ["*/*/*.bvh"]', 2, "no clip matches */*/*.bvh; expected BVH files"),
+    ('[tag.Full-Body]\nWalk_01 = ["WALK"]', 1, f"unknown key `tag`; expected one of {KEYS}; did you mean `tags`?"),
     ('[library]\nclips = ["Walk_9.bvh"]', 2, "there is no clip DIR/Walk_9.bvh"),
     (
         '[library]\nclips = ["*.bvh", "sub/*.bvh"]',
@@ -97,7 +107,7 @@ MISTAKES = [
     (graph("window = 1"), 3, "window must be a number of frames from 2 to 1000, found 1"),
     (graph("window = 20.0"), 3, "window must be a number of frames from 2 to 1000, found 20.0"),
     (graph("window = true"), 3, "window must be a number of frames from 2 to 1000, found True"),
-    (graph('joints = "Spine"'), 3, "joints must be a list of texts, found 'Spine'"),
+    (graph('joints = "Spine"'), 3, 'joints must be a list of texts, as in ["Spine"], found a text alone'),
     (graph("without = [1]"), 3, "without must be a list of texts, found [1]"),
     *(
         (
@@ -140,7 +150,7 @@ MISTAKES = [
     ('\n[tags.Full-Bdy]\nWalk_01 = ["WALK"]', 2, "[tags.Full-Bdy] names no graph; did you mean `Full-Body`?"),
     ('[tags.Full-Body]\nWalk_1 = ["WALK"]', 2, "there is no clip `Walk_1`; did you mean `Walk_01`?"),
     ('[tags.Full-Body]\nZzz = ["WALK"]', 2, "there is no clip `Zzz`"),
-    ('[tags.Full-Body]\nWalk_01 = "WALK"', 2, "Walk_01 must be a list of texts, found 'WALK'"),
+    ('[tags.Full-Body]\nWalk_01 = "WALK"', 2, 'Walk_01 must be a list of texts, as in ["WALK"], found a text alone'),
     ('[tags.Full-Body]\nWalk_01 = [""]', 2, "a tag must not be empty"),
     (
         '[tags.Full-Body]\nWalk_01 = ["Idle_01"]',
@@ -158,7 +168,7 @@ MISTAKES = [
         "`Full-Body` is a clip and a graph; a name can mean one thing only",
     ),
     ("groups = 3", 1, "groups must be a table, found 3"),
-    ('[groups]\nmoving = "Walk_01"', 2, "moving must be a list of texts, found 'Walk_01'"),
+    ('[groups]\nmoving = "Walk_01"', 2, 'moving must be a list of texts, as in ["Walk_01"], found a text alone'),
     (
         '[groups]\na = ["b"]\nb = ["Idle_01", "a"]\n' + rules('forbid = [["a", "a"]]'),
         2,
@@ -293,10 +303,9 @@ def test_a_clip_made_of_another_leaves_that_one_where_it_is(folder: Path) -> Non
 
 
 def test_a_clip_on_no_graph_is_left_out(folder: Path) -> None:
-    assert [clip.name for clip in read(folder, "[tags.Full-Body]\nWalk_02 = []\nIdle_01 = []").clips] == [
-        "Idle_01",
-        "Walk_02",
-    ]
+    found = read(folder, "[tags.Full-Body]\nWalk_02 = []\nIdle_01 = []")
+    assert [clip.name for clip in found.clips] == ["Idle_01", "Walk_02"]
+    assert found.left_out == ("Walk_01",)
 
 
 def test_motions_are_in_the_order_of_their_tags(folder: Path) -> None:

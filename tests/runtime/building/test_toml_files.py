@@ -26,8 +26,8 @@ def test_what_is_no_toml_is_told_with_its_line(tmp_path: Path, text: str | bytes
 
 
 def test_a_mistake_stands_on_the_line_of_its_key_or_of_the_nearest_table(tmp_path: Path) -> None:
-    file = read_toml(written(tmp_path, "[a]\nb = { c = 1 }\n"))
-    for at, line in ((("a", "b", "c"), 2), (("a", "z"), 1), (("z",), None)):
+    file = read_toml(written(tmp_path, "[a]\nb = { c = 1 }\n[d.e]\n"))
+    for at, line in ((("a", "b", "c"), 2), (("a", "z"), 1), (("z",), None), (("d",), 3)):
         with pytest.raises(ConfigurationError) as caught:
             file.fail(at, "no")
         assert caught.value.line == line
