@@ -74,8 +74,23 @@ def _table() -> dict[str, Rule]:
         "MS045": Rule(warning, "a duration of nothing"),
         "MS046": Rule(error, "an absurd duration"),
         "MS047": Rule(hint, "a command that is left as soon as it is reached"),
-        # the version
-        "MS060": Rule(error, "a part of the language that is not played yet"),
+        "MS048": Rule(error, "a script that becomes too large when it is expanded"),
+        "MS049": Rule(error, "a choice that nothing can be drawn from"),
+        # the definitions
+        "MS050": Rule(error, "a name that is defined twice"),
+        "MS051": Rule(error, "a definition in terms of itself"),
+        "MS052": Rule(error, "a definition that is named like a graph"),
+        "MS053": Rule(warning, "a definition that is named like a motion or tag"),
+        "MS054": Rule(warning, "a definition or parameter that is not used"),
+        "MS055": Rule(error, "arguments that do not fit the parameters"),
+        "MS056": Rule(error, "a motion where a duration is expected, or the other way round"),
+        "MS057": Rule(error, "a definition that says how long, where that cannot be said"),
+        "MS058": Rule(error, "a file that cannot be used"),
+        "MS059": Rule(error, "files that use each other in a circle"),
+        # the comments
+        "MS070": Rule(warning, "a comment that ignores what is not there"),
+        "MS071": Rule(warning, "a comment to the compiler that says nothing it knows"),
+        "MS072": Rule(warning, "an error that a comment cannot silence"),
     }
 
 
@@ -123,7 +138,7 @@ class Label:
 
 @dataclass(frozen=True, slots=True)
 class Note:
-    """A sentence that one should know as well; with a place, that is drawn below the sentence."""
+    """A sentence that one should know as well; with a place, it is drawn as a label."""
 
     message: str
     span: Span | None = None
@@ -154,6 +169,12 @@ class Diagnostic:
     def severity(self) -> Severity:
         """Return how bad it is."""
         return CODES[self.code].severity
+
+    @property
+    def places(self) -> tuple[Label, ...]:
+        """Return the other places, those of notes too."""
+        noted = (Label(note.span, note.message) for note in self.notes if note.span is not None)
+        return (*self.labels, *noted)
 
 
 def has_errors(diagnostics: tuple[Diagnostic, ...]) -> bool:
