@@ -16,7 +16,7 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from mlmg_lang.commands.console import DONE
+from mlmg_lang.commands.console import DONE, ProgressLine
 
 if TYPE_CHECKING:
     from mlmg_runtime.library import Library
@@ -62,7 +62,11 @@ def _open(path: Path | None) -> Library:
     if path is None:
         from mlmg_runtime.demo.library import demo_library
 
-        path = demo_library()
+        progress = ProgressLine()
+        try:
+            path = demo_library(progress)
+        finally:
+            progress.clear()
     return open_library(path)
 
 

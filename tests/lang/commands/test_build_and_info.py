@@ -3,6 +3,7 @@
 import csv
 import io
 import json
+import sys
 
 import pytest
 
@@ -200,6 +201,19 @@ def test_a_frame_time_in_milliseconds_is_one_clear_error(folder, capsys):
     (folder / "Step.bvh").write_text(text.replace("Frame Time: 0.033333", "Frame Time: 33.3333", 1))
     assert mlmg.main(["build", "library.toml"]) == 1
     assert "Step.bvh: a frame lasts 33.3333" in capsys.readouterr().err
+
+
+def test_info_tells_how_far_the_demo_library_is(built, monkeypatch):
+    terminal = Terminal()
+    monkeypatch.setattr(sys, "stderr", terminal)
+
+    def made(progress):
+        progress("making", 1, 2)
+        return built / "my.mlmg"
+
+    monkeypatch.setattr("mlmg_runtime.demo.library.demo_library", made)
+    assert mlmg.main(["info"]) == 0
+    assert terminal.getvalue() == "\rmaking 1/2\r          \r"
 
 
 def test_info_finds_the_library_as_the_other_commands_do(built, capsys, monkeypatch):
