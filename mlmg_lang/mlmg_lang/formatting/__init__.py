@@ -1,0 +1,1 @@
+"""Scripts in their one canonical form (docs/formatting.md says what it is)."""
