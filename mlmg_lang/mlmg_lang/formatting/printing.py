@@ -20,13 +20,19 @@ _LINE_END: Final = re.compile(r"\r\n|\r|\n")
 
 
 class Printer:
-    """Goes through the tokens of a script from beginning to end, along its lines and blocks."""
+    """Goes through the tokens of a script from beginning to end, along its lines and blocks.
+
+    Attributes
+    ----------
+    kept : whether something was kept as written, because it cannot be read.
+    """
 
     def __init__(self, source: Source, tokens: Sequence[Token], layout: Layout) -> None:
         """Take a script, its tokens and how they fall into lines and blocks."""
         self._source = source
         self._tokens = tokens
         self._layout = layout
+        self.kept = False
         self._at = 0  # the first token that has not been written yet
         self._page = Page()
         self._sound = Soundness(source, tokens, layout)
@@ -60,6 +66,7 @@ class Printer:
 
     def _keep(self, start: int, end: int, indent: int) -> None:
         """Write a stretch as it stands."""
+        self.kept = True
         first, *others = _LINE_END.split(self._source.slice(Span(start, end)))
         self._page.add([Row(indent, first), *(Row(0, other) for other in others)])
         self._skip(end)
@@ -137,6 +144,7 @@ class Printer:
             texts = self._words.written(line.tokens)
             self._page.add(wrap(self._tokens[begin : self._at], texts, indent, self._taken(indent)))
         elif _is_weight(line) and self._goes_on(begin + 2):
+            self.kept = True
             self._skip(end)
             self._page.lead_with(indent, self._source.slice(Span(start, end)))
         else:
