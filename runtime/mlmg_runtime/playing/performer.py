@@ -6,12 +6,13 @@ The performer decides; it works on frame numbers alone and makes a timeline. Syn
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from mlmg_runtime.errors import PlayError
 from mlmg_runtime.library import Library
 from mlmg_runtime.motion_graph import MotionGraph, Position
 from mlmg_runtime.playing.holding import stay
+from mlmg_runtime.playing.releasing import release
 from mlmg_runtime.playing.returning import find_return
 from mlmg_runtime.playing.search import Path, find_path
 from mlmg_runtime.playing.timeline import (
@@ -24,7 +25,8 @@ from mlmg_runtime.playing.timeline import (
     play_clip,
 )
 
-# A part may take this long to find its way back to the graph above before a blend is made on the spot.
+# A part may take this long to find its way back to the graph above; without such a way it is blended onto that, and the
+# blend may begin so late.
 LONGEST_RETURN_S = 2.0
 
 
@@ -48,15 +50,16 @@ class _Track:
 
 @dataclass(frozen=True, slots=True)
 class _Departure:
-    """How a graph gets into another motion: where it sets out, at which output frame, and along which path."""
+    """How a graph gets into another motion: where it sets out, at which output frame, and what it plays on the way."""
 
     position: Position
     time: int
-    path: Path
+    segments: tuple[Segment, ...]
+    home: int
 
     @property
     def arrives(self) -> int:
-        return self.time + self.path.n_frames
+        return self.segments[-1].end
 
 
 @dataclass(slots=True)
@@ -80,7 +83,7 @@ class Performer:
 
     # What can be asked of a character
 
-    def bring(self, layers: Sequence[tuple[str, Sequence[str]]]) -> None:
+    def bring(self, layers: Sequence[tuple[str, Sequence[str]]], from_start: bool = False) -> None:
         """Bring graphs to one of their candidates each; `now` is when all have arrived.
 
         The highest graphs come first; those of one level set out at the same time, when all above have arrived. Graphs
@@ -89,6 +92,7 @@ class Performer:
         Parameters
         ----------
         layers : graph and candidates (in the order that decides ties), highest graph first.
+        from_start : whether the first of them enters its motion where that begins, though it may play it already.
 
         Raises
         ------
@@ -97,9 +101,11 @@ class Performer:
         """
         named = dict(layers)
         self._end([graph for graph in self._below(named) if graph not in named])
+        afresh = layers[0][0] if from_start else None
         for depth in sorted(set(map(self._depth, named))):
             level = {graph: candidates for graph, candidates in layers if self._depth(graph) == depth}
-            self._change({graph: level[graph] for graph in level if self.motion(graph) not in level[graph]})
+            changing = [graph for graph in level if graph == afresh or self.motion(graph) not in level[graph]]
+            self._change({graph: level[graph] for graph in changing}, afresh)
 
     def hold(self, n_frames: int) -> None:
         """Let `n_frames` output frames pass in what is playing."""
@@ -108,6 +114,15 @@ class Performer:
     def end(self, graph: str) -> None:
         """Give a body part, and those below it, back to the graph above."""
         self._end([graph])
+
+    def play_pass(self, graph: str) -> None:
+        """Let the motion that drives `graph` play to the last frame from which a transition leaves it."""
+        track = self._driver(graph)
+        self._lead_home(track)
+        exits = track.graph.first_exit[track.position.motion]
+        rest = max(exits[-1] - track.position.frame, 0) if exits else 0
+        track.play(play_clip(track.time, track.position, rest))
+        self._hold_until(track.time)
 
     def play_out(self, graph: str) -> None:
         """Let the motion that drives `graph` play to its clip's last frame, everything else going on meanwhile."""
@@ -139,16 +154,22 @@ class Performer:
 
     # Changing what plays
 
-    def _change(self, changing: Mapping[str, Sequence[str]]) -> None:
-        """Lead graphs of one level into one of their candidates each, at the same time, after what runs below them."""
+    def _change(self, changing: Mapping[str, Sequence[str]], afresh: str | None) -> None:
+        """Lead graphs of one level into one of their candidates each, at the same time, after what runs below them.
+
+        The graph `afresh` enters its motion where that begins.
+        """
         self._end(self._below(changing))
         self._end_detours(changing)
-        found = {graph: self._departure(graph, changing) for graph in changing}
+        found = {
+            graph: self._entry(graph, changing) if graph == afresh else self._departure(graph, changing)
+            for graph in changing
+        }
         departures = {graph: departure for graph, departure in found.items() if departure is not None}
         if len(departures) < len(changing):
             self._end([graph for graph in changing if graph not in departures])
             # Time has passed: the others are asked anew.
-            self._change({graph: changing[graph] for graph in departures})
+            self._change({graph: changing[graph] for graph in departures}, afresh)
             return
         for graph, departure in departures.items():
             self._set_out(graph, departure)
@@ -169,17 +190,38 @@ class Performer:
             f"no walk on {graph} leads from {self.motion(graph)} to {names}; see `mlmg info` for what was lost"
         )
 
-    def _soonest(self, own: MotionGraph, targets: Sequence[int], joining: Collection[str]) -> _Departure | None:
-        """Return the departure that arrives soonest in one of `targets`; None if no walk leads there."""
+    def _entry(self, graph: str, changing: Mapping[str, Sequence[str]]) -> _Departure:
+        """Return how a graph gets to where a candidate begins: along a path, or else by a blend on the spot."""
+        own = self.library.by_name[graph]
+        above = None if own.parent is None else self.motion(own.parent)
+        choices = [[own.index[motion] for motion in choice] for choice in _choices(own, above, changing[graph])]
+        for choice in choices:
+            departure = self._soonest(own, choice, changing, own.window - 1)
+            if departure is not None:
+                return departure
+        soonest = self._soonest(own, choices[0], changing)
+        home = choices[0][0] if soonest is None else soonest.home
+        time, position = next(self._starts(own, changing))
+        blend = Blend(time, time + own.window, position, Position(home, own.window - 1))
+        return _Departure(position, time, (blend,), home)
+
+    def _soonest(
+        self, own: MotionGraph, targets: Sequence[int], joining: Collection[str], dst_frame: int | None = None
+    ) -> _Departure | None:
+        """Return the departure that arrives soonest in one of `targets`; None if no walk leads there.
+
+        With `dst_frame`, that has to be the last blended frame of the transition into the target.
+        """
         best: _Departure | None = None
         seen: set[Position] = set()
         for time, position in self._starts(own, joining):
             if position in seen or (best is not None and time + own.window > best.arrives):
                 break
             seen.add(position)
-            path = find_path(own, position, targets)
+            path = find_path(own, position, targets, dst_frame=dst_frame)
             if path is not None and (best is None or time + path.n_frames < best.arrives):
-                best = _Departure(position, time, path)
+                segments = play_along(path.transitions, own.window, position, time)
+                best = _Departure(position, time, tuple(segments), path.arrival.motion)
         return best
 
     def _starts(self, own: MotionGraph, joining: Collection[str]) -> Iterator[tuple[int, Position]]:
@@ -193,15 +235,14 @@ class Performer:
         own = self.library.by_name[graph]
         if graph not in self._running:
             self._running[graph] = _Track(own, departure.position.motion, departure.position, departure.time)
-        track = self._running[graph]
-        track.play(play_along(departure.path.transitions, own.window, track.position, track.time))
-        track.home = departure.path.arrival.motion
+        self._running[graph].play(departure.segments)
+        self._running[graph].home = departure.home
 
     def _end_detours(self, joining: Collection[str]) -> None:
         """Let the graphs that parts are about to leave come back from a way round that the parts could not mind."""
         for graph in joining:
             parent = self.library.parent(graph)
-            if parent is not None and graph not in self._running:
+            if parent is not None:
                 track = self._driver(parent)
                 if self._path_home(track, joining) is None:
                     self._lead_home(track)
@@ -240,14 +281,12 @@ class Performer:
         deadline = self.now + round(LONGEST_RETURN_S * self.library.frame_rate)
         above = list(self._clips_above(track.graph, deadline=deadline))
         way = find_return(track.graph, track.position, track.time, above, deadline)
-        if way is not None:
-            return way
-        return (Blend(track.time, track.time + track.graph.window, track.position, None),)
+        return release(self.library, track.graph, self._stay(track), above, deadline) if way is None else way
 
     # Letting time pass
 
     def _hold_until(self, time: int, but: Sequence[str] = ()) -> None:
-        self.now = max(self.now, time)
+        self.now = time
         for graph, track in self._running.items():
             if track.time < self.now and graph not in but:
                 for segment in self._stay(track):
@@ -265,22 +304,19 @@ class Performer:
     ) -> Iterator[Clip]:
         """Yield the clips that the graph above will play, as far as they are motions of `graph` and in its indices.
 
-        Where one blend follows another, the clip between them is a single moment, of no frames. Ends with the first
-        segment that begins after `deadline`; without one, never.
+        A blend is a clip of no frames at its beginning: it can be left there, and need not follow a clip that has some.
+        Ends with the first segment that begins after `deadline`; without one, never.
         """
         parent = self.library.parent(graph.name)
         assert parent is not None
         track = self._driver(parent)
-        before: Segment | None = None
         for segment in self._stay(track, joining):
             if deadline is not None and segment.begin > deadline:
                 return
             clip = segment if isinstance(segment, Clip) else Clip(segment.begin, segment.begin, segment.source, 0)
             name = track.graph.motions[clip.first.motion]
-            if name in graph.index and not (isinstance(segment, Blend) and isinstance(before, Clip)):
-                first = Position(graph.index[name], clip.first.frame)
-                yield Clip(clip.begin, clip.end, first, clip.n_source)
-            before = segment
+            if name in graph.index:
+                yield replace(clip, first=Position(graph.index[name], clip.first.frame))
 
     def _allowed(self, graph: str, joining: Collection[str] = ()) -> frozenset[int]:
         """Return the motions that a way round on `graph` may pass: those that all running parts below it are on."""
@@ -318,5 +354,5 @@ def _choices(own: MotionGraph, above: str | None, candidates: Sequence[str]) -> 
 def _cut(segment: Segment, end: int) -> Segment:
     """Return a clip that stops at `end`; a blend is always shown to its end."""
     if isinstance(segment, Clip) and segment.end > end:
-        return Clip(segment.begin, end, segment.first, end - segment.begin)
+        return replace(segment, end=end, n_source=end - segment.begin)
     return segment

@@ -25,7 +25,11 @@ class Path:
 
 
 def find_path(
-    graph: MotionGraph, start: Position, targets: Sequence[int], allowed: Collection[int] | None = None
+    graph: MotionGraph,
+    start: Position,
+    targets: Sequence[int],
+    allowed: Collection[int] | None = None,
+    dst_frame: int | None = None,
 ) -> Path | None:
     """Return the path of at least one transition into a target motion that takes the fewest frames.
 
@@ -37,6 +41,8 @@ def find_path(
     ----------
     targets : indices of motions, in the order that decides ties.
     allowed : indices of motions that the path may enter besides the targets; None for all.
+    dst_frame : the frame at which the last transition has to end; None for any. Other transitions into a target are
+        then on the way like all others.
     """
     bound = _lower_bounds(graph, targets)
     rank = {motion: at for at, motion in enumerate(targets)}
@@ -72,7 +78,7 @@ def find_path(
         if after < first_edge[edge.src_motion + 1]:
             push(after, n_frames + edges[after].src_frame - edge.src_frame, cost, taken)
         then, there = _Taken(number, taken), n_frames + k
-        if edge.dst_motion in rank:
+        if edge.dst_motion in rank and dst_frame in (None, edge.dst_frame):
             heappush(queue, (there, cost + edge.cost, rank[edge.dst_motion], number, there, then))
         elif allowed is None or edge.dst_motion in allowed:
             onward = next_exit(edge.arrival)

@@ -1,9 +1,11 @@
 """A character is asked random things; what it then plays is held against the rules of the language, frame by frame."""
 
 from collections.abc import Callable, Collection, Iterator
+from dataclasses import replace
 from itertools import islice, pairwise, takewhile
 from typing import Any
 
+import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -241,8 +243,16 @@ class Model:
         future = takewhile(lambda moment: moment[0] <= deadline, self.future(graph))
         way = find_return(own, at, when, [Clip(time, time, there, 0) for time, there in future], deadline)
         if way is None:
-            return when + own.window
+            return self.released(graph, when, deadline)
         return way[-1].end if way else when
+
+    def released(self, graph: str, when: int, deadline: int) -> int:
+        """Return when a part has been blended onto the graph above; when that begins is for `test_releasing`."""
+        run = next(run for run in runs(self.performer.timeline(), graph) if run[0].begin <= when <= run[-1].begin)
+        assert isinstance(run[-1], Blend)
+        assert run[-1].target is None
+        assert when <= run[-1].begin <= deadline
+        return run[-1].end
 
     def change(self, level: dict[str, list[str]]) -> None:
         """Bring siblings to their candidates: all return that have to, then all others set out in the same frame."""
@@ -499,8 +509,6 @@ def test_rule_1_forbids_a_part_to_leave_a_motion_that_is_not_on_it(small_library
 
 
 def test_a_motion_that_no_walk_reaches_is_told_by_name(small_library: Library) -> None:
-    from dataclasses import replace
-
     root = small_library.root
     cut_off = root.transitions[root.transitions["dst_motion"] != root.index["Reach"]]
     hops = root.hops.copy()
@@ -539,3 +547,80 @@ def test_what_drives_a_part_that_does_not_run_is_played_out(small_library: Libra
     performer = Performer(small_library, "Stand")
     performer.play_out("Left-Arm")
     assert performer.now == small_library.n_frames("Stand")
+
+
+def last_exit(library: Library, graph: str, motion: str) -> int:
+    own = library.by_name[graph]
+    return max(edge.src_frame for edge in own.edges if edge.src_motion == own.index[motion])
+
+
+@pytest.mark.parametrize("motion", ["Stand", "Stroll", "Sway", "Reach"])
+@pytest.mark.parametrize("n_frames", [0, 7, 130])
+def test_brought_to_its_start_a_motion_is_entered_at_its_first_frames(
+    small_library: Library, motion: str, n_frames: int
+) -> None:
+    performer = Performer(small_library, "Stroll")
+    performer.hold(n_frames)
+    performer.bring([("Full-Body", [motion])], from_start=True)
+    assert performer.motion("Full-Body") == motion
+    root = small_library.root
+    last = performer.timeline().tracks["Full-Body"][-1]
+    assert isinstance(last, Blend)
+    assert last.target == Position(root.index[motion], root.window - 1)
+    performer.play_pass("Full-Body")
+    passed = performer.timeline().tracks["Full-Body"][-1]
+    assert passed.after == Position(root.index[motion], last_exit(small_library, "Full-Body", motion))
+    check_timeline_of_passes(small_library, performer)
+
+
+def check_timeline_of_passes(library: Library, performer: Performer) -> None:
+    """Check that what plays is one walk, but for blends on the spot into where a motion begins."""
+    for graph in performer.timeline().tracks:
+        for run in runs(performer.timeline(), graph):
+            for before, after in pairwise(run):
+                assert before.end == after.begin
+                assert before.after == (after.first if isinstance(after, Clip) else after.source)
+
+
+def test_where_a_path_leads_to_where_a_motion_begins_it_is_taken(small_library: Library) -> None:
+    root, target = small_library.root, small_library.root.index["Reach"]
+    entry = root.transitions[root.transitions["dst_motion"] == target][:1].copy()
+    entry["dst_frame"] = root.window - 1
+    transitions = np.sort(
+        np.concatenate((root.transitions, entry)), order=["src_motion", "src_frame", "dst_motion", "dst_frame"]
+    )
+    graphs = {**small_library.by_name, root.name: replace(root, transitions=transitions)}
+    performer = Performer(replace(small_library, by_name=graphs), "Stand")
+    performer.bring([("Full-Body", ["Reach"])], from_start=True)
+    last = performer.timeline().tracks["Full-Body"][-1]
+    assert isinstance(last, Blend)
+    assert last.transition is not None
+    assert last.target == Position(target, root.window - 1)
+
+
+def test_a_motion_that_plays_already_begins_again(small_library: Library) -> None:
+    performer = Performer(small_library, "Stand")
+    performer.bring([("Full-Body", ["Stand"])], from_start=True)
+    performer.play_pass("Full-Body")
+    first = performer.now
+    performer.bring([("Full-Body", ["Stand"])], from_start=True)
+    performer.play_pass("Full-Body")
+    assert performer.now > first
+
+
+def test_a_part_begins_its_motion_though_the_body_plays_that_too(small_library: Library) -> None:
+    performer = Performer(small_library, "Stand")
+    performer.hold(30)
+    performer.bring([("Upper-Body", ["Stand"])], from_start=True)
+    assert performer.runs("Upper-Body")
+    performer.play_pass("Upper-Body")
+    upper = small_library.by_name["Upper-Body"]
+    passed = performer.timeline().tracks["Upper-Body"][-1]
+    assert passed.after == Position(upper.index["Stand"], last_exit(small_library, "Upper-Body", "Stand"))
+
+
+def test_below_a_motion_that_begins_again_parts_are_brought_as_usual(small_library: Library) -> None:
+    performer = Performer(small_library, "Stroll")
+    performer.bring([("Full-Body", ["Stand"]), ("Upper-Body", ["Wave"])], from_start=True)
+    performer.play_pass("Full-Body")
+    assert (performer.motion("Full-Body"), performer.motion("Upper-Body")) == ("Stand", "Wave")
