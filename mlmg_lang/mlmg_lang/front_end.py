@@ -22,6 +22,7 @@ from mlmg_lang.planning.resolve import resolve
 from mlmg_lang.planning.resolved import ResolvedPlan
 from mlmg_lang.planning.typed import TypedPlan
 from mlmg_lang.source import Source
+from mlmg_lang.suppression import suppress
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,8 +69,11 @@ def analyse(
         gathered.source, tokens, parsed.script, expanded.script, gathered.definitions, None, None, found
     )
     if catalog is None:
-        return replace(analysis, diagnostics=_sorted((*found, *guess_case(parsed.script))))
-    return _against(analysis, catalog, start)
+        analysis = replace(analysis, diagnostics=(*found, *guess_case(parsed.script)))
+    else:
+        analysis = _against(analysis, catalog, start)
+    told = suppress(analysis.diagnostics, tokens, analysis.source, complete=analysis.resolved is not None)
+    return replace(analysis, diagnostics=_sorted(told))
 
 
 def _structure(
@@ -89,9 +93,9 @@ def _against(analysis: Analysis, catalog: Catalog, start: str | None) -> Analysi
     resolution = resolve(planned.plan, names, catalog, source, start)
     found = (*analysis.diagnostics, *planned.diagnostics, *resolution.diagnostics)
     if has_errors(found):
-        return replace(analysis, plan=planned.plan, diagnostics=_sorted(found))
+        return replace(analysis, plan=planned.plan, diagnostics=found)
     hints = tuple(left_at_once(resolution, names))
-    return replace(analysis, plan=planned.plan, resolved=resolution.plan, diagnostics=_sorted((*found, *hints)))
+    return replace(analysis, plan=planned.plan, resolved=resolution.plan, diagnostics=(*found, *hints))
 
 
 def _sorted(diagnostics: tuple[Diagnostic, ...]) -> tuple[Diagnostic, ...]:

@@ -15,6 +15,7 @@ SUBCOMMANDS = {
     "build": "build a library of motions from clips and a configuration",
     "info": "tell what is in a built library",
     "check": "check scripts without playing them",
+    "rule": "tell what a diagnostic means",
     "fmt": "rewrite scripts in the one canonical form",
     "view": "look at a motion: a player in the browser, a picture, a GIF",
 }

@@ -95,8 +95,9 @@ class _Gatherer:
                 self._open(item, name, (*users, name))
 
     def _defined(self, script: syntax.Script) -> Iterator[Diagnostic]:
-        for item in script.items:
-            if not isinstance(item, syntax.Let) or not item.name.sound:
+        """Take the definitions of one file; those in braces too, as these have been reported, and are used."""
+        for item in _lets(script):
+            if not item.name.sound:
                 continue
             first = self.lets.setdefault(normal(item.name.text), item)
             if first is not item:
@@ -128,3 +129,10 @@ class _Gatherer:
         self.complete = False
         fix = Fix(use.span, "", safe=False)
         self.diagnostics.append(Diagnostic(code, message, use.path.span, advice, fixes=(fix,)))
+
+
+def _lets(script: syntax.Script) -> Iterator[syntax.Let]:
+    for item in script.items:
+        for node in syntax.walk(item) if isinstance(item, syntax.Repeat | syntax.Choose) else (item,):
+            if isinstance(node, syntax.Let):
+                yield node

@@ -89,7 +89,7 @@ def reserved_as_name(stuck: Stuck) -> Mistake | None:
         return None
     fix = Fix(token.span, f'"{token.text}"', safe=False)
     message = f"`{token.text}` is a word of the language, not a name"
-    return mistake("MS018", message, token.span, "in quotes it is a name", fix, meant=meant)
+    return mistake("MS018", message, token.span, "in quotes it is a name", fix)
 
 
 def head_without_body(stuck: Stuck) -> Mistake | None:

@@ -1,0 +1,189 @@
+"""Comments that ask for silence -> the diagnostics that are left, and what is wrong with those comments.
+
+`# mlmg: ignore[MS047]` at the end of a line is about that line, on a line of its own about the next statement;
+`# mlmg: ignore-file[MS020, MS047]` is about the whole script. What follows the bracket is for people.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, field
+from typing import Final
+
+from mlmg_lang.diagnostics import CODES, Diagnostic, Fix, Severity
+from mlmg_lang.parsing.layout import Block, Line, lay_out
+from mlmg_lang.parsing.tokens import Token
+from mlmg_lang.source import Source, Span
+
+_DIRECTIVE: Final = re.compile(r"#\s*mlmg\s*:\s*")
+_IGNORE: Final = re.compile(r"(ignore|ignore-file)\s*\[([^\]]*)\]\s*(.*)", re.DOTALL)
+_EXAMPLE: Final = "write which diagnostics to ignore, as in `# mlmg: ignore[MS047]`"
+
+
+@dataclass(slots=True)
+class _Ignore:
+    """A comment that asks for silence.
+
+    Attributes
+    ----------
+    codes : each with its place in the comment.
+    reason : what a person has written behind the bracket.
+    removal : the edit that takes the comment out.
+    about : where it asks for silence; None: everywhere.
+    used : the codes of diagnostics that it has silenced.
+    """
+
+    comment: Span
+    word: str
+    codes: tuple[tuple[str, Span], ...]
+    reason: str
+    removal: Span
+    about: Span | None
+    used: set[str] = field(default_factory=set)
+
+    def covers(self, one: Diagnostic) -> bool:
+        """Return whether it asks for silence about a diagnostic."""
+        if one.severity is Severity.ERROR or one.code not in {code for code, _ in self.codes}:
+            return False
+        if self.about is None:
+            return True
+        return one.span is not None and one.span.start <= self.about.end and self.about.start <= one.span.end
+
+
+def suppress(
+    diagnostics: Sequence[Diagnostic], tokens: Sequence[Token], source: Source, complete: bool
+) -> tuple[Diagnostic, ...]:
+    """Return the diagnostics that no comment silences, and what is to be said of such comments.
+
+    Parameters
+    ----------
+    complete : whether all that can be said of the script has been said; else nobody knows which comments are idle.
+    """
+    if "mlmg" not in source.text:
+        return tuple(diagnostics)
+    ignores: list[_Ignore] = []
+    remarks: list[Diagnostic] = []
+    for found in _comments(tokens, source):
+        if isinstance(found, _Ignore):
+            ignores.append(found)
+        else:
+            remarks.append(found)
+    left = [one for one in diagnostics if not _silenced(one, ignores)]
+    for ignore in ignores:
+        remarks += _remarks(ignore, complete)
+    return (*left, *remarks)
+
+
+def _silenced(one: Diagnostic, ignores: Iterable[_Ignore]) -> bool:
+    covering = [ignore for ignore in ignores if ignore.covers(one)]
+    for ignore in covering:
+        ignore.used.add(one.code)
+    return bool(covering)
+
+
+# --- reading the comments ---
+
+
+def _comments(tokens: Sequence[Token], source: Source) -> Iterator[_Ignore | Diagnostic]:
+    """Yield the comments that are meant for the compiler; of those that say nothing it knows, what is wrong."""
+    statements: list[Span] | None = None
+    for at, token in enumerate(tokens):
+        directive = _DIRECTIVE.match(token.text) if token.type == "COMMENT" else None
+        if directive is None:
+            continue
+        if statements is None:
+            statements = list(_statements(lay_out(tokens).items))
+        alone = at == 0 or tokens[at - 1].type == "NEWLINE"
+        yield _read(token, directive.end(), source, statements if alone else None)
+
+
+def _read(token: Token, at: int, source: Source, statements: Sequence[Span] | None) -> _Ignore | Diagnostic:
+    """Return what a comment asks for; `statements` are those of the script if it stands on a line of its own."""
+    said = _IGNORE.fullmatch(token.text, at)
+    codes = () if said is None else tuple(_codes(said[2], token.span.start + said.start(2)))
+    removal = _removal(token.span, source.text, alone=statements is not None)
+    if said is None or not codes:
+        asks = token.text.startswith("ignore", at)
+        message = "this comment does not say what to ignore" if asks else "this comment to mlmg is not understood"
+        fixes = (Fix(removal, "", safe=True, name="take the comment out"),) if asks else ()
+        return Diagnostic("MS071", message, token.span, _EXAMPLE, fixes=fixes)
+    if said[1] == "ignore-file":
+        about = None
+    elif statements is None:
+        about = Span(source.line_starts[source.position(token.span.start)[0] - 1], token.span.start)
+    else:
+        about = _next(token.span, statements)
+    return _Ignore(token.span, said[1], codes, said[3].strip(), removal, about)
+
+
+def _codes(text: str, start: int) -> Iterator[tuple[str, Span]]:
+    """Yield the codes in the brackets; `start` is where these begin."""
+    for word in re.finditer(r"[^\s,]+", text):
+        yield word[0].upper(), Span(start + word.start(), start + word.end())
+
+
+def _removal(comment: Span, text: str, alone: bool) -> Span:
+    """Return what to take out with a comment: the spaces before it, and its whole line if nothing else is there."""
+    start, end = comment.start, comment.end
+    while start > 0 and text[start - 1] not in "\r\n" and text[start - 1].isspace():
+        start -= 1
+    if alone:
+        end += 2 if text.startswith("\r\n", end) else 1 if end < len(text) else 0
+    return Span(start, end)
+
+
+def _statements(items: Iterable[Line | Block]) -> Iterator[Span]:
+    """Yield where statements are, blocks before what is in them; the weights of branches are left out."""
+    for item in items:
+        if isinstance(item, Block):
+            yield item.span
+            for branch in item.branches:
+                yield from _statements(branch)
+        elif [token.type for token in item.tokens] != ["INTEGER", "COLON"]:
+            yield Span(item.tokens[0].span.start, item.tokens[-1].span.end)
+
+
+def _next(comment: Span, statements: Sequence[Span]) -> Span:
+    """Return the statement behind a comment, or the rest of the one that it stands in; else no place at all."""
+    following = [one for one in statements if one.start >= comment.end]
+    first = min((one.start for one in following), default=None)
+    around = [one for one in statements if one.start < comment.start and comment.end < one.end]
+    if around and (first is None or around[-1].end < first):
+        return Span(comment.end, around[-1].end)
+    return max((one for one in following if one.start == first), default=Span(comment.end, comment.end))
+
+
+# --- what is wrong with them ---
+
+
+def _remarks(ignore: _Ignore, complete: bool) -> Iterator[Diagnostic]:
+    for code, span in ignore.codes:
+        without = _without(ignore, code)
+        if code not in CODES:
+            yield Diagnostic("MS071", f"there is no diagnostic `{code}`", span, _alike(code), fixes=(without,))
+        elif CODES[code].severity is Severity.ERROR:
+            message = f"`{code}` cannot be ignored: it is an error, and keeps the script from being played"
+            yield Diagnostic("MS072", message, span, "take it out, and mend the script", fixes=(without,))
+        elif complete and code not in ignore.used:
+            where = "in this script" if ignore.about is None else "here"
+            yield Diagnostic("MS070", f"there is no `{code}` {where} to ignore", span, "take it out", fixes=(without,))
+
+
+def _alike(code: str) -> str:
+    from mlmg_lang.spelling import listed, nearest
+
+    near = nearest(code, CODES)
+    return f"there is {listed(near, 'or')}; `mlmg rule` lists all" if near else "`mlmg rule` lists all"
+
+
+def _without(ignore: _Ignore, code: str) -> Fix:
+    """Return the edit that takes a code out of a comment, and with the last code the comment."""
+    kept = ", ".join(other for other, _ in ignore.codes if other != code)
+    name = f"ignore `{code}` no longer"
+    if kept:
+        reason = f" {ignore.reason}" if ignore.reason else ""
+        return Fix(ignore.comment, f"# mlmg: {ignore.word}[{kept}]{reason}", safe=True, name=name)
+    if ignore.reason:
+        return Fix(ignore.comment, f"# {ignore.reason.lstrip('#').lstrip()}", safe=True, name=name)
+    return Fix(ignore.removal, "", safe=True, name=name)
