@@ -20,7 +20,17 @@ from mlmg_lang.spelling import listed, nearest, normal
 MAX_NODES = 20_000
 """So large may one command become."""
 
-Values: TypeAlias = Mapping[str, "syntax.Motion | syntax.Quantity"]
+
+@dataclass(frozen=True, slots=True)
+class _Value:
+    """What a parameter stands for; of a motion, how many nodes it has, and how deep they are nested."""
+
+    value: syntax.Motion | syntax.Quantity
+    n_nodes: int = 0
+    height: int = 0
+
+
+Values: TypeAlias = Mapping[str, _Value]
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,8 +44,8 @@ class Expanded:
 def expand(script: syntax.Script, definitions: Definitions) -> Expanded:
     """Return a script with what its definitions say in place of their names; where that fails, `Broken` stands."""
     if not definitions.lets:
-        items = tuple(item for item in script.items if not isinstance(item, syntax.Use))
-        return Expanded(script if len(items) == len(script.items) else replace(script, items=items), ())
+        kept = tuple(item for item in script.items if not isinstance(item, syntax.Use))
+        return Expanded(script if len(kept) == len(script.items) else replace(script, items=kept), ())
     expander = _Expander(definitions)
     items = expander.body(script.items)
     return Expanded(replace(script, items=items), (*expander.diagnostics, *_unused(script, definitions)))
@@ -49,7 +59,9 @@ def told_from(one: Diagnostic, command: Span) -> Diagnostic:
 
 
 def _unused(script: syntax.Script, definitions: Definitions) -> Iterator[Diagnostic]:
-    """Yield the definitions of a script that nothing in it uses."""
+    """Yield the definitions of a script that nothing in it uses; what could not be read may use all."""
+    if any(isinstance(node, syntax.Broken) for node in syntax.walk(script)):
+        return
     used: set[str] = set()
     pending: list[syntax.Item] = [item for item in script.items if not isinstance(item, syntax.Let | syntax.Use)]
     for item in pending:
@@ -77,7 +89,8 @@ class _Expander:
     definitions: Definitions
     diagnostics: list[Diagnostic] = field(default_factory=list)
     nodes: int = 0
-    command: Span = Span(0, 0)
+    deepest: int = 0
+    command: Span = field(default_factory=lambda: Span(0, 0))
 
     # --- statements ---
 
@@ -127,22 +140,19 @@ class _Expander:
 
     def _amount(self, amount: syntax.Amount | None, values: Values) -> syntax.Amount | None:
         if isinstance(amount, syntax.Name):
-            value = values.get(normal(amount.text))
-            return value if isinstance(value, syntax.Quantity) else amount
+            given = values.get(normal(amount.text))
+            return given.value if given is not None and isinstance(given.value, syntax.Quantity) else amount
         return amount
 
     # --- motion expressions ---
 
     def _motion(self, motion: syntax.Motion, values: Values, depth: int) -> syntax.Motion:
         """Return an expression with all that is defined put in; the very same if nothing is."""
-        self.nodes += 1
-        if self.nodes > MAX_NODES or depth > 2 * MAX_DEPTH:
-            message = "this becomes too large when what is defined is put in"
-            raise self._fail(Diagnostic("MS048", message, self.command, "say it with fewer definitions in each other"))
+        self._grow(1, depth)
         match motion:
             case syntax.Reference(name, span):
-                value = values.get(normal(name.text))
-                return self._used(motion, values, depth) if value is None else _as_motion(value, span)
+                given = values.get(normal(name.text))
+                return self._used(motion, values, depth) if given is None else self._given_motion(given, span, depth)
             case syntax.Call():
                 return self._called(motion, values, depth)
             case syntax.Qualified():
@@ -153,6 +163,32 @@ class _Expander:
         operands = tuple(self._motion(operand, values, depth + 1) for operand in motion.operands)
         return motion if operands == motion.operands else replace(motion, operands=operands)
 
+    def _grow(self, n_nodes: int, depth: int) -> None:
+        """Count what is put in, and fail where that is too much or too deep."""
+        self.nodes += n_nodes
+        self.deepest = max(self.deepest, depth)
+        if self.nodes > MAX_NODES or depth > 2 * MAX_DEPTH:
+            message = "this becomes too large when what is defined is put in"
+            raise self._fail(Diagnostic("MS048", message, self.command, "say it with fewer definitions in each other"))
+
+    def _given_motion(self, given: _Value, span: Span, depth: int) -> syntax.Motion:
+        """Return the value of a parameter where it is used, in parentheses if it is more than a name."""
+        motion = given.value
+        assert not isinstance(motion, syntax.Quantity), "kinds are checked where arguments are given"
+        self._grow(given.n_nodes, depth + given.height + 1)
+        return motion if isinstance(motion, syntax.Reference | syntax.Group) else syntax.Group(motion, span)
+
+    def _measured(self, value: syntax.Motion | syntax.Quantity, values: Values, depth: int) -> _Value:
+        """Return what a parameter stands for, with all that is defined put in."""
+        if isinstance(value, syntax.Quantity):
+            return _Value(value)
+        n_nodes, deepest = self.nodes, self.deepest
+        self.deepest = depth
+        put_in = self._motion(value, values, depth)
+        measured = _Value(put_in, self.nodes - n_nodes, self.deepest - depth)
+        self.deepest = max(self.deepest, deepest)
+        return measured
+
     def _qualified(self, motion: syntax.Qualified, values: Values, depth: int) -> syntax.Motion:
         put_in = self._motion(motion.motion, values, depth + 1)
         if put_in is motion.motion:
@@ -162,7 +198,7 @@ class _Expander:
         return syntax.Call(motion.graph, (syntax.Argument(None, put_in, motion.motion.span),), motion.span)
 
     def _called(self, call: syntax.Call, values: Values, depth: int) -> syntax.Motion:
-        if self.definitions.find(call.name) is not None:
+        if normal(call.name.text) not in values and self.definitions.find(call.name) is not None:
             return self._used(call, values, depth)
         arguments = tuple(self._argument(argument, values, depth) for argument in call.arguments)
         return call if arguments == call.arguments else replace(call, arguments=arguments)
@@ -202,21 +238,18 @@ class _Expander:
         signature: Signature,
         outside: Values,
         depth: int,
-    ) -> dict[str, syntax.Motion | syntax.Quantity]:
+    ) -> dict[str, _Value]:
         """Return what the parameters of a definition stand for in one use of it."""
         arguments = use.arguments if isinstance(use, syntax.Call) else ()
         given = self._given(use, let, arguments)
-        values: dict[str, syntax.Motion | syntax.Quantity] = {}
+        values: dict[str, _Value] = {}
         for parameter in let.parameters or ():
             name = normal(parameter.name.text)
             argument = given.get(name)
             if argument is not None:
                 values[name] = self._value(argument, name, let, signature.kinds[name], outside, depth)
             elif parameter.default is not None:
-                default = parameter.default
-                if not isinstance(default, syntax.Quantity):
-                    default = self._motion(default, {}, depth + 1)
-                values[name] = default
+                values[name] = self._measured(parameter.default, {}, depth + 1)
         missing = [p.name.text for p in let.parameters or () if normal(p.name.text) not in values]
         if missing:
             raise self._misfit(use.span, f"`{let.name.text}` is used without its {listed(missing)}", let)
@@ -257,10 +290,11 @@ class _Expander:
         kind: Kind | None,
         outside: Values,
         depth: int,
-    ) -> syntax.Motion | syntax.Quantity:
+    ) -> _Value:
         value = argument.value
-        if isinstance(value, syntax.Reference) and isinstance(outside.get(normal(value.name.text)), syntax.Quantity):
-            value = outside[normal(value.name.text)]
+        passed_on = outside.get(normal(value.name.text)) if isinstance(value, syntax.Reference) else None
+        if passed_on is not None and isinstance(passed_on.value, syntax.Quantity):
+            value = passed_on.value
         is_duration = isinstance(value, syntax.Quantity)
         if kind is not None and is_duration != (kind is Kind.DURATION):
             found = Kind.DURATION if is_duration else Kind.MOTION
@@ -268,9 +302,7 @@ class _Expander:
             example = "such as `2 sec`" if kind is Kind.DURATION else "such as a tag"
             note = Note("it is defined here", let.name.span)
             raise self._fail(Diagnostic("MS056", message, argument.span, f"write a {kind}, {example}", (note,)))
-        if isinstance(value, syntax.Quantity):
-            return value
-        return self._motion(value, outside, depth + 1)
+        return self._measured(value, outside, depth + 1)
 
     def _misfit(self, span: Span, message: str, let: syntax.Let, advice: str | None = None) -> _Failed:
         takes = ", ".join(_shown(parameter) for parameter in let.parameters or ())
@@ -281,12 +313,6 @@ class _Expander:
     def _fail(self, diagnostic: Diagnostic) -> _Failed:
         self.diagnostics.append(diagnostic)
         return _Failed()
-
-
-def _as_motion(value: syntax.Motion | syntax.Quantity, span: Span) -> syntax.Motion:
-    """Return the value of a parameter where it is used, in parentheses if it is more than a name."""
-    assert not isinstance(value, syntax.Quantity), "kinds are checked where arguments are given"
-    return value if isinstance(value, syntax.Reference | syntax.Group) else syntax.Group(value, span)
 
 
 def _shown(parameter: syntax.Parameter) -> str:
