@@ -81,9 +81,9 @@ def _structure(
 ) -> Iterator[Diagnostic]:
     frame_rate = None if catalog is None else catalog.frame_rate
     yield from misplaced(script)
-    yield from check_structure(expanded, frame_rate, definitions.complete)
     for let in definitions.lets.values():
         yield from check_definition(let, frame_rate)
+    yield from check_structure(expanded, frame_rate, definitions.complete)
 
 
 def _against(analysis: Analysis, catalog: Catalog, start: str | None) -> Analysis:

@@ -9,6 +9,7 @@ from mlmg_lang.diagnostics import Diagnostic, Fix
 from mlmg_lang.parsing import syntax
 from mlmg_lang.parsing.amounts import UNITS, seconds_from_quantity, unit_of
 from mlmg_lang.source import Span
+from mlmg_lang.spelling import normal
 
 SUB = "Sub"
 """In place of a graph's name: the child of the graph last named."""
@@ -44,10 +45,9 @@ def check_definition(let: syntax.Let, frame_rate: float | None = None) -> Iterat
     """Yield what can be said of a definition wherever it is used."""
     structure = _Structure(frame_rate, False)
     yield from structure.motion(let.command.motion, sub=True)
-    parameters = frozenset(parameter.name.text for parameter in let.parameters or ())
+    parameters = frozenset(normal(parameter.name.text) for parameter in let.parameters or ())
     if let.command.duration is not None:
-        gap = Span(let.command.motion.span.end, let.command.duration.span.end)
-        yield from structure.duration(let.command.duration, gap, parameters)
+        yield from structure.duration(let.command.duration, _written(let.command), parameters)
 
 
 def motion_mistakes(motion: syntax.Motion, complete: bool) -> Iterator[Diagnostic]:
@@ -130,17 +130,16 @@ class _Structure:
     def _command(self, command: syntax.Command) -> Iterator[Diagnostic]:
         yield from self.motion(command.motion, sub=False)
         if command.duration is not None:
-            gap = Span(command.motion.span.end, command.duration.span.end)
-            yield from self.duration(command.duration, gap)
+            yield from self.duration(command.duration, _written(command))
 
     # --- durations ---
 
     def duration(
-        self, amount: syntax.Amount, whole: Span, parameters: frozenset[str] = frozenset()
+        self, amount: syntax.Amount, whole: Span | None, parameters: frozenset[str] = frozenset()
     ) -> Iterator[Diagnostic]:
-        """Yield what is wrong with a duration; `whole` is what could be taken out if it lasts no time."""
+        """Yield what is wrong with a duration; `whole` is what could be taken out if it lasts no time, if anything."""
         if isinstance(amount, syntax.Name):
-            if amount.sound and amount.text not in parameters:
+            if amount.sound and normal(amount.text) not in parameters:
                 yield _no_number(amount)
             return
         number = float(amount.number)
@@ -148,8 +147,8 @@ class _Structure:
         shortest = 0.5 / self.frame_rate if self.frame_rate is not None else 0.0
         if number == 0 or (seconds is not None and seconds < shortest):
             message = "this lasts no time" if number == 0 else "this is shorter than a frame"
-            fix = Fix(whole, "", safe=False)
-            yield Diagnostic("MS045", message, amount.span, help="leave it out, or give it time", fixes=(fix,))
+            fixes = () if whole is None else (Fix(whole, "", safe=False),)
+            yield Diagnostic("MS045", message, amount.span, help="leave it out, or give it time", fixes=fixes)
         elif seconds is not None and seconds > LONGEST_S:
             yield Diagnostic("MS046", "this is longer than a day", amount.span, help="check number and unit")
         elif unit_of(amount) == "cycles" and number > LONGEST_S:
@@ -184,7 +183,9 @@ class _Structure:
         layers = without_groups(motion)
         if isinstance(layers, syntax.With):
             message = f"{whose} takes sets of motions; this says what several graphs do"
-            yield Diagnostic("MS034", message, layers.span, help="write `with` outside of it")
+            inside = motion.span.start <= layers.span.start and layers.span.end <= motion.span.end
+            span = layers.span if inside else motion.span
+            yield Diagnostic("MS034", message, span, help="write `with` outside of it")
         yield from self.motion(motion, sub)
 
     def _graph(self, graph: syntax.Name, sub: bool) -> Iterator[Diagnostic]:
@@ -202,6 +203,13 @@ class _Structure:
         message = f"`{call.name.text}` is not a definition, so it takes no arguments"
         advice = "after a graph's name, write one motion expression in the parentheses"
         yield Diagnostic("MS028", message, call.span, help=advice)
+
+
+def _written(command: syntax.Command) -> Span | None:
+    """Return where a command says how long, `for` included; None if that comes from elsewhere or is in its midst."""
+    assert command.duration is not None
+    start, end = command.motion.span.end, command.duration.span.end
+    return Span(start, end) if command.span.start < start <= end == command.span.end else None
 
 
 def _nested(item: syntax.Let | syntax.Use) -> Diagnostic:
