@@ -57,17 +57,22 @@ class UsedFiles:
     def find(self, path: str, user: str) -> tuple[Source, tuple[Diagnostic, ...]] | str:
         """Return a file, and what is wrong with its bytes; or, in words, why it cannot be used."""
         name = os.path.normpath(Path(user).parent / path)
-        real = Path(os.path.realpath(name))
+        try:
+            real = Path(os.path.realpath(name))
+        except ValueError:  # there is a NUL in it, or half a character
+            return f"`{path}` cannot be the path of a file"
         if not any(real.is_relative_to(folder) for folder in self.folders):
             return f"`{path}` lies outside of the script's own folders; `--allow-use FOLDER` would allow it"
         if real == Path(os.path.realpath(self.script)):
             name = self.script
         try:
+            if real.exists() and not real.is_file():
+                return f"`{path}` is not a file"
             return source_from_bytes(real.read_bytes(), name)
         except FileNotFoundError:
             return f"there is no file `{path}`{_alike(real)}"
-        except (OSError, ValueError) as error:
-            return f"`{path}` cannot be read: {error.strerror if isinstance(error, OSError) else error}"
+        except OSError as error:
+            return f"`{path}` cannot be read: {error.strerror}"
 
 
 def used_files(script: str | Path, allowed: Sequence[str | Path] = ()) -> UsedFiles:
