@@ -142,35 +142,25 @@ def test_motions_with_a_usual_bridge_have_no_dearer_one_unless_all_fall_apart_wi
             assert falls_apart_without(positions, edges, kept, number)
 
 
-@settings(max_examples=300)
-@given(cases(), SIGMAS)
-def test_every_bridge_is_the_best_of_its_window_or_the_motions_fall_apart_without_it(case, sigma) -> None:
-    positions, edges = case
-    kept = bridges(positions, edges, sigma, WINDOW, none_hurries)
-    for number in np.flatnonzero(kept & (edges.distance > sigma)):
-        if not is_best_of_its_window(edges, number, kept):
-            best = [n for n in range(len(kept)) if is_best_of_its_window(edges, n, np.ones(len(kept), dtype=bool))]
-            some = edges.distance <= sigma
-            some[best] = True
-            assert not motions_of(positions, edges.where(some)) >= motions_of(positions, edges)
+def best_of_windows(edges: Edges, out: np.ndarray) -> np.ndarray:
+    """Return the transitions that are left when each in turn, best first, rules out those near it."""
+    best = np.zeros(len(edges.distance), dtype=bool)
+    for number in np.argsort(edges.distance):
+        others = best.copy()
+        others[number] = True
+        best[number] = not out[number] and is_best_of_its_window(edges, number, others)
+    return best
 
 
 @settings(max_examples=300)
 @given(cases(), SIGMAS, st.sets(st.integers(1, 16)))
-def test_no_bridge_hurries_where_the_best_of_each_window_that_do_not_join_all(case, sigma, hurrying) -> None:
+def test_bridges_are_the_calm_best_of_their_windows_if_these_join_all_motions(case, sigma, hurrying) -> None:
     positions, edges = case
-    hurries = those_hurry(hurrying)(edges)
     kept = bridges(positions, edges, sigma, WINDOW, those_hurry(hurrying))
-    calm: list[int] = []
-    for number in np.argsort(edges.distance):
-        others = np.zeros(len(kept), dtype=bool)
-        others[[*calm, number]] = True
-        if not hurries[number] and is_best_of_its_window(edges, number, others):
-            calm.append(number)
-    some = edges.distance <= sigma
-    some[calm] = True
-    if motions_of(positions, edges.where(some)) >= motions_of(positions, edges):
-        assert not (kept & hurries & (edges.distance > sigma)).any()
+    best = best_of_windows(edges, those_hurry(hurrying)(edges))
+    smooth = edges.distance <= sigma
+    if motions_of(positions, edges.where(smooth | best)) >= motions_of(positions, edges):
+        assert not (kept & ~smooth & ~best).any()
 
 
 def test_nothing_is_bridged_where_smooth_transitions_join_all_motions() -> None:
