@@ -1,7 +1,7 @@
 """Comments that ask for silence -> the diagnostics that are left, and what is wrong with those comments.
 
 `# mlmg: ignore[MS047]` at the end of a line is about that line, on a line of its own about the next statement;
-`# mlmg: ignore-file[MS020, MS047]` is about the whole script. What follows the bracket is for people.
+`# mlmg: ignore-file[MS020, MS047]` is about its whole file. What follows the bracket is for people.
 """
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ from typing import Final
 
 from mlmg_lang.diagnostics import CODES, Diagnostic, Fix, Severity
 from mlmg_lang.parsing.layout import Block, Line, lay_out
+from mlmg_lang.parsing.tokenize import tokenize
 from mlmg_lang.parsing.tokens import Token
 from mlmg_lang.source import Source, Span
 
@@ -30,7 +31,8 @@ class _Ignore:
     codes : each with its place in the comment.
     reason : what a person has written behind the bracket.
     removal : the edit that takes the comment out.
-    about : where it asks for silence; None: everywhere.
+    about : where it asks for silence.
+    whole : whether that is all of the script.
     used : the codes of diagnostics that it has silenced.
     """
 
@@ -39,16 +41,17 @@ class _Ignore:
     codes: tuple[tuple[str, Span], ...]
     reason: str
     removal: Span
-    about: Span | None
+    about: Span
+    whole: bool
     used: set[str] = field(default_factory=set)
 
     def covers(self, one: Diagnostic) -> bool:
         """Return whether it asks for silence about a diagnostic."""
         if one.severity is Severity.ERROR or one.code not in {code for code, _ in self.codes}:
             return False
-        if self.about is None:
-            return True
-        return one.span is not None and one.span.start <= self.about.end and self.about.start <= one.span.end
+        if one.span is None:
+            return self.whole
+        return one.span.start <= self.about.end and self.about.start <= one.span.end
 
 
 def suppress(
@@ -60,8 +63,6 @@ def suppress(
     ----------
     complete : whether all that can be said of the script has been said; else nobody knows which comments are idle.
     """
-    if "mlmg" not in source.text:
-        return tuple(diagnostics)
     ignores: list[_Ignore] = []
     remarks: list[Diagnostic] = []
     for found in _comments(tokens, source):
@@ -69,6 +70,8 @@ def suppress(
             ignores.append(found)
         else:
             remarks.append(found)
+    if not ignores:
+        return (*diagnostics, *remarks)
     left = [one for one in diagnostics if not _silenced(one, ignores)]
     for ignore in ignores:
         remarks += _remarks(ignore, complete)
@@ -86,51 +89,73 @@ def _silenced(one: Diagnostic, ignores: Iterable[_Ignore]) -> bool:
 
 
 def _comments(tokens: Sequence[Token], source: Source) -> Iterator[_Ignore | Diagnostic]:
-    """Yield the comments that are meant for the compiler; of those that say nothing it knows, what is wrong."""
-    statements: list[Span] | None = None
-    for at, token in enumerate(tokens):
-        directive = _DIRECTIVE.match(token.text) if token.type == "COMMENT" else None
-        if directive is None:
-            continue
-        if statements is None:
-            statements = list(_statements(lay_out(tokens).items))
-        alone = at == 0 or tokens[at - 1].type == "NEWLINE"
-        yield _read(token, directive.end(), source, statements if alone else None)
+    """Yield the comments that are meant for the compiler; of those that say nothing it knows, what is wrong.
+
+    Parameters
+    ----------
+    tokens : of the script; those of the files that it uses are read here.
+    """
+    base = 0
+    for file in (source, *source.used):
+        if "mlmg" in file.text:
+            yield from _File(file, base, tokenize(source, base) if base else tokens).comments()
+        base += len(file.text) + 1
 
 
-def _read(token: Token, at: int, source: Source, statements: Sequence[Span] | None) -> _Ignore | Diagnostic:
-    """Return what a comment asks for; `statements` are those of the script if it stands on a line of its own."""
-    said = _IGNORE.fullmatch(token.text, at)
-    codes = () if said is None else tuple(_codes(said[2], token.span.start + said.start(2)))
-    removal = _removal(token.span, source.text, alone=statements is not None)
-    if said is None or not codes:
-        asks = token.text.startswith("ignore", at)
-        message = "this comment does not say what to ignore" if asks else "this comment to mlmg is not understood"
-        fixes = (Fix(removal, "", safe=True, name="take the comment out"),) if asks else ()
-        return Diagnostic("MS071", message, token.span, _EXAMPLE, fixes=fixes)
-    if said[1] == "ignore-file":
-        about = None
-    elif statements is None:
-        about = Span(source.line_starts[source.position(token.span.start)[0] - 1], token.span.start)
-    else:
-        about = _next(token.span, statements)
-    return _Ignore(token.span, said[1], codes, said[3].strip(), removal, about)
+@dataclass(frozen=True, slots=True)
+class _File:
+    """A file, and where it begins."""
+
+    file: Source
+    base: int
+    tokens: Sequence[Token]
+
+    def comments(self) -> Iterator[_Ignore | Diagnostic]:
+        """Yield its comments to the compiler."""
+        statements: list[Span] | None = None
+        for at, token in enumerate(self.tokens):
+            directive = _DIRECTIVE.match(token.text) if token.type == "COMMENT" else None
+            if directive is None:
+                continue
+            if statements is None:
+                statements = list(_statements(lay_out(self.tokens).items))
+            alone = at == 0 or self.tokens[at - 1].type == "NEWLINE"
+            yield self._read(token, directive.end(), statements if alone else None)
+
+    def _read(self, token: Token, at: int, statements: Sequence[Span] | None) -> _Ignore | Diagnostic:
+        """Return what a comment asks for; `statements` are those of the file if it stands on a line of its own."""
+        said = _IGNORE.fullmatch(token.text, at)
+        codes = () if said is None else tuple(_codes(said[2], token.span.start + said.start(2)))
+        removal = self._removal(token.span, alone=statements is not None)
+        if said is None or not codes:
+            asks = token.text.startswith("ignore", at)
+            message = "this comment does not say what to ignore" if asks else "this comment to mlmg is not understood"
+            fixes = (Fix(removal, "", safe=True, name="take the comment out"),) if asks else ()
+            return Diagnostic("MS071", message, token.span, _EXAMPLE, fixes=fixes)
+        whole = said[1] == "ignore-file"
+        about = Span(self.base, self.base + len(self.file.text)) if whole else self._about(token.span, statements)
+        return _Ignore(token.span, said[1], codes, said[3].strip(), removal, about, whole and self.base == 0)
+
+    def _about(self, comment: Span, statements: Sequence[Span] | None) -> Span:
+        if statements is not None:
+            return _next(comment, statements)
+        row, _ = self.file.position(comment.start - self.base)
+        return Span(self.base + self.file.line_starts[row - 1], comment.start)
+
+    def _removal(self, comment: Span, alone: bool) -> Span:
+        """Return what to take out with a comment: the spaces before it, and its line if nothing else is there."""
+        text, start, end = self.file.text, comment.start - self.base, comment.end - self.base
+        while start > 0 and text[start - 1] not in "\r\n" and text[start - 1].isspace():
+            start -= 1
+        if alone:
+            end += 2 if text.startswith("\r\n", end) else int(end < len(text))
+        return Span(self.base + start, self.base + end)
 
 
 def _codes(text: str, start: int) -> Iterator[tuple[str, Span]]:
     """Yield the codes in the brackets; `start` is where these begin."""
     for word in re.finditer(r"[^\s,]+", text):
         yield word[0].upper(), Span(start + word.start(), start + word.end())
-
-
-def _removal(comment: Span, text: str, alone: bool) -> Span:
-    """Return what to take out with a comment: the spaces before it, and its whole line if nothing else is there."""
-    start, end = comment.start, comment.end
-    while start > 0 and text[start - 1] not in "\r\n" and text[start - 1].isspace():
-        start -= 1
-    if alone:
-        end += 2 if text.startswith("\r\n", end) else 1 if end < len(text) else 0
-    return Span(start, end)
 
 
 def _statements(items: Iterable[Line | Block]) -> Iterator[Span]:
@@ -166,7 +191,7 @@ def _remarks(ignore: _Ignore, complete: bool) -> Iterator[Diagnostic]:
             message = f"`{code}` cannot be ignored: it is an error, and keeps the script from being played"
             yield Diagnostic("MS072", message, span, "take it out, and mend the script", fixes=(without,))
         elif complete and code not in ignore.used:
-            where = "in this script" if ignore.about is None else "here"
+            where = "in this file" if ignore.word == "ignore-file" else "here"
             yield Diagnostic("MS070", f"there is no `{code}` {where} to ignore", span, "take it out", fixes=(without,))
 
 

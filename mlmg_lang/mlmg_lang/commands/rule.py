@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Say what the command takes."""
-    parser.add_argument("codes", nargs="*", metavar="CODE", help="a code, such as MS021; in any case")
+    parser.add_argument("codes", nargs="*", metavar="CODE", help="a code: MS021, ms021 or 21")
     parser.add_argument("--format", choices=("text", "json"), default="text", help="how it is told (text)")
     parser.add_argument("--json", dest="format", action="store_const", const="json", help="the same as --format json")
 
@@ -55,11 +55,12 @@ def _known(code: str) -> str:
     from mlmg_lang.diagnostics import CODES
     from mlmg_lang.spelling import joined, nearest
 
-    if code.upper() in CODES:
-        return code.upper()
-    near = nearest(code.upper(), CODES)
-    meant = f"did you mean {joined(near, 'or')}?" if near else "`mlmg rule` lists all"
-    raise UsageError(f"there is no code `{code}`; {meant}")
+    meant = f"MS{int(code):03}" if code.isascii() and code.isdigit() else code.upper()
+    if meant in CODES:
+        return meant
+    near = nearest(meant, CODES)
+    advice = f"did you mean {joined(near, 'or')}?" if near else "`mlmg rule` lists all"
+    raise UsageError(f"there is no code `{code}`; {advice}")
 
 
 def _told(code: str) -> str:
