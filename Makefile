@@ -28,7 +28,7 @@ bench: $(VENV)/bench-tools
 	for bench in benchmarks/bench_*.py; do $(BIN)/python $$bench || exit 1; done
 
 pictures: $(VENV)/test-tools demo
-	$(BIN)/mlmg view tour.bvh --report tour.json -o docs/tour.png --frames 60,220,480,720,1150,1500
+	$(BIN)/mlmg view tour.bvh --report tour.json -o docs/tour.png
 
 # The wheel, built and tested as it is installed, not the source tree.
 wheel: $(VENV)/test-tools
