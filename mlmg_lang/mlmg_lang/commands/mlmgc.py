@@ -5,13 +5,17 @@ from __future__ import annotations
 import argparse
 import json
 import sys
-from collections.abc import Sequence
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from mlmg_lang.commands.console import (
     DONE,
     WRONG_CONTENT,
+    WRONG_USAGE,
     ProgressLine,
     UsageError,
     add_use_option,
@@ -23,8 +27,10 @@ from mlmg_lang.commands.console import (
     tell,
     utf8_streams,
 )
+from mlmg_lang.commands.watching import Inputs, NotedFiles
 
 if TYPE_CHECKING:
+    from mlmg_lang.commands.watching import Stamp
     from mlmg_lang.diagnostics import Diagnostic
     from mlmg_lang.perform import Performance
     from mlmg_lang.source import Source
@@ -36,6 +42,7 @@ Compiles a script of Motion Script, plays it on a library of motions, and writes
 examples:
   mlmgc stroll.ms --library my.mlmg -o stroll.bvh
   mlmgc stroll.ms -o stroll.bvh --report stroll.json    what plays when, and why
+  mlmgc stroll.ms -o stroll.bvh --watch                 again at every save
   echo "WALK for 10 sec" | mlmgc - -o - > walk.bvh      standard input and output
 
 Without --library, MLMG_LIBRARY or a key `library` in mlmg.toml, the demo library is played.
@@ -73,17 +80,63 @@ def _parser() -> argparse.ArgumentParser:
         "--blend", choices=("c1", "linear"), help="how transitions are weighted; as the library is configured"
     )
     add_use_option(parser)
+    parser.add_argument("--watch", action="store_true", help="play again at every save, until Ctrl-C")
     parser.add_argument("--version", action=VersionAction, nargs=0, help="show the version and leave")
     return parser
 
 
 def _run(arguments: argparse.Namespace) -> int:
+    if arguments.output == "-" and arguments.report == "-":
+        raise UsageError("the motion and the report cannot both go to standard output")
+    if arguments.watch:
+        return _watch(arguments)
+    return _play(arguments, Inputs(), Libraries(), tell)
+
+
+def _watch(arguments: argparse.Namespace) -> int:
+    """Play a script, and again whenever a file that it is made from changes; return if that cannot even begin."""
+    _refuse_watching(arguments)
+    libraries = Libraries()
+    tell(f"mlmgc: watching {arguments.script}; Ctrl-C leaves")
+    has_begun = False
+    while True:
+        inputs = Inputs()
+        code = run_command("mlmgc", partial(_play, arguments, inputs, libraries, _tell_when))
+        if code not in (DONE, WRONG_CONTENT, WRONG_USAGE) or (code == WRONG_USAGE and not has_begun):
+            return code
+        if code != DONE:
+            _tell_when(f"{arguments.script}: not played; {arguments.output} stays as it was")
+        has_begun = True
+        inputs.wait_for_change()
+
+
+def _refuse_watching(arguments: argparse.Namespace) -> None:
+    """Raise `UsageError` for what cannot be read or written again and again."""
+    script = Path(arguments.script)
+    if arguments.script == "-" or (script.exists() and not script.is_file()):
+        raise UsageError(f"--watch needs a file to be saved; the script is {arguments.script}")
+    for option, output in (("-o", arguments.output), ("--report", arguments.report)):
+        if output == "-":
+            raise UsageError(f"--watch writes again and again, which {option} - cannot show; name a file")
+
+
+def _tell_when(message: str) -> None:
+    tell(f"{time.strftime('%H:%M:%S')} {message}")
+
+
+def _play(arguments: argparse.Namespace, inputs: Inputs, libraries: Libraries, sum_up: Callable[[str], None]) -> int:
+    """Compile and play a script, and say how much motion that is; return 1 if it has errors.
+
+    Parameters
+    ----------
+    inputs : where the files are noted that this depends on.
+    """
     from mlmg_lang.front_end import analyse
     from mlmg_lang.libraries import find_library
     from mlmg_lang.script_files import read_script, used_files
 
-    if arguments.output == "-" and arguments.report == "-":
-        raise UsageError("the motion and the report cannot both go to standard output")
+    inputs.note(arguments.script)
+    inputs.note_settings(arguments.script)
     library_path = find_library(arguments.script, arguments.library)
     outputs = [arguments.output, arguments.report]
     refuse_overwriting(outputs, [arguments.script, library_path])
@@ -92,10 +145,11 @@ def _run(arguments: argparse.Namespace) -> int:
     if unreadable:
         _show(source, unreadable)
         return WRONG_CONTENT
-    library = _library(library_path)
-    files = used_files(arguments.script, arguments.allow_use)
+    library = libraries.open(library_path, inputs)
+    files = NotedFiles(used_files(arguments.script, arguments.allow_use), inputs)
     analysis = analyse(source, library, arguments.start, files)
     _show(analysis.source, analysis.diagnostics)
+    refuse_overwriting(outputs, [file.name for file in analysis.source.used])
     if analysis.resolved is None:
         return WRONG_CONTENT
     if not analysis.resolved.statements:
@@ -105,7 +159,23 @@ def _run(arguments: argparse.Namespace) -> int:
 
     performance = perform(analysis.resolved, library, arguments.seed, arguments.fps, arguments.blend)
     _write(performance, arguments.output, arguments.report)
+    if arguments.output != "-":
+        sum_up(f"{arguments.output}: {_summary(performance.report)}")
     return DONE
+
+
+@dataclass(slots=True)
+class Libraries:
+    """The library that was opened last, which is opened again only if its file has changed."""
+
+    _opened: tuple[Path | None, Stamp | None, Library] | None = None
+
+    def open(self, path: Path | None, inputs: Inputs) -> Library:
+        """Return a library, and note its file; where none is named, the demo library."""
+        state = None if path is None else inputs.note(path)
+        if self._opened is None or self._opened[:2] != (path, state):
+            self._opened = (path, state, _library(path))
+        return self._opened[2]
 
 
 def _library(path: Path | None) -> Library:
@@ -141,14 +211,13 @@ def _write(performance: Performance, output: str, report: str | None) -> None:
         bvh.write(performance.bvh, output)
     if report is not None:
         _write_report(performance.report, report)
-    n_frames, seconds = (
-        performance.report["n_frames"],
-        performance.report["n_frames"] / performance.report["frame_rate"],
-    )
-    if output != "-":
-        commands = performance.report["commands"]
-        under_way = sum(command["arrive"] - command["begin"] for command in commands) / performance.report["frame_rate"]
-        tell(f"{output}: {n_frames} frames, {seconds:.1f} s, {under_way:.1f} s of them on the way between motions")
+
+
+def _summary(report: dict[str, Any]) -> str:
+    """Return how long a motion is, and how much of it leads from one command to the next."""
+    n_frames, rate = report["n_frames"], report["frame_rate"]
+    under_way = sum(command["arrive"] - command["begin"] for command in report["commands"])
+    return f"{n_frames} frames, {n_frames / rate:.1f} s, {under_way / rate:.1f} s of them on the way between motions"
 
 
 def _write_report(report: dict[str, Any], path: str) -> None:
