@@ -10,9 +10,14 @@ from typing import Any
 
 import pytest
 
+from mlmg_lang.definitions.expand import MAX_NODES
+from mlmg_lang.definitions.gather import MAX_FILES
 from mlmg_lang.diagnostics import CODES, Diagnostic, Severity
 from mlmg_lang.execution import executed
 from mlmg_lang.front_end import Analysis, analyse
+from mlmg_lang.parsing.layout import MAX_DEPTH
+from mlmg_lang.parsing.parse import MAX_MISTAKES
+from mlmg_lang.parsing.structure import LONGEST_S, MAX_EXECUTED
 from mlmg_lang.perform import perform
 from mlmg_lang.planning.resolved import Choose, Command, Cycles, End, Once, Repeat, Seconds, Statement, Wait
 from mlmg_lang.source import Source
@@ -169,6 +174,13 @@ def test_every_code_is_shown_by_an_example() -> None:
     of_options = {"MS044"}
     of_letters_and_signs = {"MS002", "MS003", "MS004", "MS010", "MS012", "MS013", "MS014", "MS018", "MS019"}
     assert set(CODES) - shown_codes == of_files_and_limits | of_options | of_letters_and_signs
+
+
+def test_the_limits_are_those_of_the_compiler() -> None:
+    text = (DOCS / "language.md").read_text(encoding="utf-8").partition("## Limits")[2]
+    numbers = [int(number.replace(",", "")) for number in re.findall(r"\| ([\d,]+) \| MS", text)]
+    assert numbers == [MAX_DEPTH, MAX_MISTAKES, MAX_EXECUTED, MAX_NODES, MAX_FILES]
+    assert LONGEST_S == 24 * 3600
 
 
 @pytest.mark.parametrize("page", [*PAGES, "grammar.md"])
