@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Sequence
-from typing import Final, TypeAlias
+from collections.abc import Sequence
+from itertools import islice
+from typing import Final
 
 from mlmg_lang.formatting.page import Page
+from mlmg_lang.formatting.pieces import Piece, beginning, is_weight, start, statements, would_go_on
 from mlmg_lang.formatting.soundness import Soundness
 from mlmg_lang.formatting.words import shortest_number, words_of
 from mlmg_lang.formatting.wrapping import INDENT, WIDTH, Row, columns, wrap
 from mlmg_lang.parsing.layout import Block, Layout, Line
-from mlmg_lang.parsing.tokens import CONTINUES, Token
+from mlmg_lang.parsing.tokens import Token
 from mlmg_lang.source import Source, Span
 
-Piece: TypeAlias = Line | Block
 _BAR_INDENT: Final = INDENT - 2
 _LINE_END: Final = re.compile(r"\r\n|\r|\n")
 
@@ -36,12 +37,12 @@ class Printer:
         self._at = 0  # the first token that has not been written yet
         self._page = Page()
         self._sound = Soundness(source, tokens, layout)
-        self._words = words_of(_statements(layout.items))
+        self._words = words_of(statements(layout.items))
 
     def script(self) -> str:
         """Return the text of all."""
         begin = self._keep_beginning()
-        self._body([piece for piece in self._layout.items if _start(piece) >= begin], 0)
+        self._body([piece for piece in self._layout.items if start(piece) >= begin], 0)
         return self._page.text()
 
     # --- what blocks cannot be told of ---
@@ -53,23 +54,26 @@ class Printer:
         if end:
             first = next(token.span.start for token in self._tokens if token.type != "NEWLINE")
             line = max(self._source.text.rfind(sign, 0, first) for sign in "\r\n") + 1
-            self._keep(line, end, 0)
+            self._keep(Span(line, end), 0)
         return end
 
     def _keep_block(self, block: Block, indent: int) -> None:
         """Keep a block; one that is nowhere closed reaches to the end, comments included."""
-        inside = [token.type for token in self._tokens if block.span.start <= token.span.start < block.span.end]
-        end = block.span.end
-        if inside.count("OPEN") > inside.count("CLOSE"):
+        depth, end = 0, block.span.end
+        for token in islice(self._tokens, self._at, None):
+            if token.span.start >= end:
+                break
+            depth += (token.type == "OPEN") - (token.type == "CLOSE")
+        if depth > 0:
             end = next(token.span.end for token in reversed(self._tokens) if token.type != "NEWLINE")
-        self._keep(block.span.start, end, indent)
+        self._keep(Span(block.span.start, end), indent)
 
-    def _keep(self, start: int, end: int, indent: int) -> None:
+    def _keep(self, span: Span, indent: int) -> None:
         """Write a stretch as it stands."""
         self.kept = True
-        first, *others = _LINE_END.split(self._source.slice(Span(start, end)))
+        first, *others = _LINE_END.split(self._source.slice(span))
         self._page.add([Row(indent, first), *(Row(0, other) for other in others)])
-        self._skip(end)
+        self._skip(span.end)
 
     def _skip(self, end: int) -> None:
         while self._at < len(self._tokens) and self._tokens[self._at].span.start < end:
@@ -82,11 +86,11 @@ class Printer:
         parted = self._parted(pieces)
         before: Piece | None = None
         for n, piece in enumerate(pieces):
-            self._between(indent, before if n in parted or _would_go_on(piece) else None)
+            self._between(indent, before if n in parted or would_go_on(piece) else None)
             before = piece
             if isinstance(piece, Block):
                 self._block(piece, indent)
-            elif is_branch and n == 0 and _is_weight(piece):
+            elif is_branch and n == 0 and is_weight(piece):
                 self._weight(piece, indent)
                 before = None
             else:
@@ -126,7 +130,7 @@ class Printer:
 
     def _parted(self, pieces: Sequence[Piece]) -> range:
         """Return the pieces before which a `;` has to stay, for it keeps parentheses from finding each other."""
-        odd = [() if isinstance(piece, Line) and self._is_sound(piece) else _beginning(piece) for piece in pieces]
+        odd = [() if isinstance(piece, Line) and self._is_sound(piece) else beginning(piece) for piece in pieces]
         left = [n for n, tokens in enumerate(odd) if any(token.type == "LEFT" for token in tokens)]
         right = [n for n, tokens in enumerate(odd) if any(token.type == "RIGHT" for token in tokens)]
         return range(left[0] + 1, right[-1] + 1) if left and right else range(0)
@@ -137,18 +141,17 @@ class Printer:
     # --- statements ---
 
     def _line(self, line: Line, indent: int) -> None:
-        start, end = line.tokens[0].span.start, line.tokens[-1].span.end
-        begin = self._at
+        begin, span = self._at, Span(line.tokens[0].span.start, line.tokens[-1].span.end)
         if self._is_sound(line):
-            self._skip(end)
+            self._skip(span.end)
             texts = self._words.written(line.tokens)
             self._page.add(wrap(self._tokens[begin : self._at], texts, indent, self._taken(indent)))
-        elif _is_weight(line) and self._goes_on(begin + 2):
+        elif is_weight(line) and self._goes_on(begin + 2):
             self.kept = True
-            self._skip(end)
-            self._page.lead_with(indent, self._source.slice(Span(start, end)))
+            self._skip(span.end)
+            self._page.lead_with(indent, self._source.slice(span))
         else:
-            self._keep(start, end, indent)
+            self._keep(span, indent)
 
     def _weight(self, line: Line, indent: int) -> None:
         self._skip(line.tokens[-1].span.end)
@@ -202,7 +205,7 @@ class Printer:
         """Return the weight and the one statement of a branch, as far as they are there."""
         first = branch[0] if branch else None
         weight = []
-        if isinstance(first, Line) and _is_weight(first):
+        if isinstance(first, Line) and is_weight(first):
             weight = [f"{shortest_number(first.tokens[0].text)}:"]
             branch = branch[1:]
         if not branch:
@@ -218,32 +221,3 @@ class Printer:
         while self._tokens[at].span.start < end - 1 and self._tokens[at].type != "COMMENT":
             at += 1
         return self._tokens[at].type == "COMMENT"
-
-
-def _statements(pieces: Iterable[Piece]) -> Iterator[Sequence[Token]]:
-    """Yield the tokens of all lines, those in blocks too."""
-    for piece in pieces:
-        if isinstance(piece, Line):
-            yield piece.tokens
-        else:
-            for branch in piece.branches:
-                yield from _statements(branch)
-
-
-def _beginning(piece: Piece) -> Sequence[Token]:
-    """Return the tokens of a line, or those before the brace of a block."""
-    return piece.tokens if isinstance(piece, Line) else piece.head
-
-
-def _start(piece: Piece) -> int:
-    return piece.tokens[0].span.start if isinstance(piece, Line) else piece.span.start
-
-
-def _is_weight(piece: Piece) -> bool:
-    return isinstance(piece, Line) and [token.type for token in piece.tokens] == ["INTEGER", "COLON"]
-
-
-def _would_go_on(piece: Piece) -> bool:
-    """Return whether a piece would belong to the line above it, were that not ended by a `;`."""
-    tokens = _beginning(piece)
-    return not tokens or tokens[0].type in CONTINUES

@@ -19,7 +19,7 @@ class Soundness:
     def __init__(self, source: Source, tokens: Sequence[Token], layout: Layout) -> None:
         """Take a script, its tokens, and what is wrong with its braces."""
         self._source = source
-        self._odd = {one.span for one in check_tokens(tokens)}
+        self._odd = {one.span for one in check_tokens(tokens) if one.severity is Severity.ERROR}
         self._braces = {one.span for one in layout.diagnostics}
         self._too_deep = [one.span.start for one in layout.diagnostics if one.span and one.code == "MS005"]
         self._known: dict[tuple[str, ...], bool] = {}

@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from types import MappingProxyType
+from typing import Final
 
-from mlmg_lang.parsing.tokens import CONTINUES, Token
+from mlmg_lang.parsing.tokens import Token
 from mlmg_lang.rendering.cells import cells
 
 WIDTH = 100
 """As many columns a line may take, but for comments and what cannot be broken."""
 INDENT = 4
+_BREAKS: Final[Mapping[str, int]] = MappingProxyType({"COMMA": 0, "FOR": 0, "ONCE": 0, "WITH": 1, "OR": 2, "AND": 3})
+"""Before which words, or after which, a line may end: first where they bind loosest."""
 
 
 @dataclass(slots=True)
@@ -28,7 +33,7 @@ class Row:
     comment: str = ""
 
 
-@dataclass(slots=True)
+@dataclass(frozen=True, slots=True)
 class _Word:
     """A word of a statement that takes several lines.
 
@@ -37,14 +42,15 @@ class _Word:
     text : with the space before it, if it has one.
     depth : how many parentheses are open around it; a parenthesis itself stands outside.
     comments : what stands before it; the first one behind the word before, if `trails`.
+    rank : how little the line before it hangs together with it; None where a line must not end.
     """
 
     type: str
     text: str
     depth: int
-    after_comma: bool
-    comments: list[str] = field(default_factory=list)
-    trails: bool = False
+    comments: tuple[str, ...]
+    trails: bool
+    rank: tuple[int, int] | None
 
 
 def columns(text: str) -> int:
@@ -66,7 +72,7 @@ def wrap(tokens: Sequence[Token], texts: Sequence[str], indent: int, lead: int =
     commented = len(tokens) > len(texts) and any(token.type == "COMMENT" for token in tokens)
     if not commented and indent + lead + columns(flat) <= WIDTH:
         return [Row(indent, flat)]
-    return _Wrapper(indent, lead).rows(_words(tokens, texts))
+    return _Wrapper(indent, lead).rows(tuple(_words(tokens, texts)))
 
 
 def _words(tokens: Iterable[Token], texts: Iterable[str]) -> Iterator[_Word]:
@@ -84,13 +90,15 @@ def _words(tokens: Iterable[Token], texts: Iterable[str]) -> Iterator[_Word]:
             comments.append(token.text.rstrip())
         else:
             depth -= token.type == "RIGHT"
-            yield _Word(token.type, next(remaining), depth, before == "COMMA", comments, trails)
+            order = _BREAKS.get("COMMA" if before == "COMMA" else token.type, 4 if comments else None)
+            rank = None if order is None else (depth, order)
+            yield _Word(token.type, next(remaining), depth, tuple(comments), trails, rank)
             depth += token.type == "LEFT"
             before, comments, own_line, trails = token.type, [], False, False
 
 
 class _Wrapper:
-    """Puts words into lines."""
+    """Puts words into lines: as many as fit, and what belongs together in one line if that can be."""
 
     def __init__(self, indent: int, lead: int) -> None:
         self._indent = indent
@@ -98,44 +106,58 @@ class _Wrapper:
         self._taken = indent + lead
         self._layer = 0
 
-    def rows(self, words: Iterable[_Word]) -> list[Row]:
-        """Return the lines."""
-        for chunk in _chunks(words):
-            self._put(chunk)
+    def rows(self, words: Sequence[_Word]) -> list[Row]:
+        """Return the lines; each `with` outside of parentheses begins one."""
+        for layer in _parts(words, _begins_layer):
+            self._place(layer)
+            self._layer = INDENT
         return self._rows
 
-    def _put(self, chunk: list[_Word]) -> None:
-        """Put words that stay together where they belong: behind the others, or in a new line."""
-        first = chunk[0]
-        begins_layer = first.type == "WITH" and first.depth == 0
-        text = "".join(word.text for word in chunk)
-        width = columns(text)
-        if begins_layer:
-            self._layer = INDENT
-        outermost = first.depth == 0 and first.type in ("WITH", "FOR", "ONCE")
-        indent = self._indent + (INDENT if outermost else self._layer + INDENT)
-        self._comment(first, indent)
-        if first.comments or (self._rows[-1].code and (begins_layer or self._taken + width > WIDTH)):
-            text = text.lstrip(" ")
-            self._rows.append(Row(indent, text))
-            self._taken = indent + columns(text)
+    def _place(self, words: Sequence[_Word]) -> None:
+        """Put words behind the others, in a new line, or, if they are too many for one, in several."""
+        first, *others = words
+        indent = self._indent_of(first)
+        width = sum(columns(word.text) for word in words)
+        rank = min((word.rank for word in others if word.rank is not None), default=None)
+        whole = not any(word.comments for word in others)
+        new_line = bool(first.comments) or _begins_layer(first)
+        if whole and not new_line and self._taken + width <= WIDTH:
+            self._append(words, width)
+        elif rank is None or (whole and indent + width - first.text.startswith(" ") <= WIDTH):
+            if new_line or self._rows[-1].code:
+                self._begin_row(first, indent)
+            self._append(words, width)
         else:
-            self._rows[-1].code += text
-            self._taken += width
+            for part in _parts(words, lambda word: word.rank == rank):
+                self._place(part)
 
-    def _comment(self, word: _Word, indent: int) -> None:
-        comments = word.comments
+    def _indent_of(self, word: _Word) -> int:
+        """Return how far a line is indented that begins with a word."""
+        of_command = word.depth == 0 and word.type in ("WITH", "FOR", "ONCE")
+        return self._indent + (INDENT if of_command else self._layer + INDENT)
+
+    def _append(self, words: Sequence[_Word], width: int) -> None:
+        text = "".join(word.text for word in words)
+        row = self._rows[-1]
+        if not row.code:
+            text, width = text.lstrip(" "), width - text.startswith(" ")
+        row.code += text
+        self._taken += width
+
+    def _begin_row(self, word: _Word, indent: int) -> None:
+        """Begin a line with a word, below the comments that stand before it."""
         if word.trails:
-            self._rows[-1].comment, *comments = comments
-        self._rows += [Row(indent, "", comment) for comment in comments]
+            self._rows[-1].comment = word.comments[0]
+        own = word.comments[1:] if word.trails else word.comments
+        self._rows += [*(Row(indent, "", comment) for comment in own), Row(indent, "")]
+        self._taken = indent
 
 
-def _chunks(words: Iterable[_Word]) -> Iterator[list[_Word]]:
-    """Yield the words between the places where a line may end."""
-    chunk: list[_Word] = []
-    for word in words:
-        if chunk and (word.comments or word.after_comma or word.type in CONTINUES):
-            yield chunk
-            chunk = []
-        chunk.append(word)
-    yield chunk
+def _begins_layer(word: _Word) -> bool:
+    return word.depth == 0 and word.type == "WITH"
+
+
+def _parts(words: Sequence[_Word], begins: Callable[[_Word], bool]) -> Iterator[Sequence[_Word]]:
+    """Yield the parts of a stretch, each but the first of which begins with such a word."""
+    starts = [0, *(at for at, word in enumerate(words) if at and begins(word)), len(words)]
+    return (words[start:end] for start, end in pairwise(starts))
