@@ -104,7 +104,11 @@ class Performer:
         afresh = layers[0][0] if from_start else None
         for depth in sorted(set(map(self._depth, named))):
             level = {graph: candidates for graph, candidates in layers if self._depth(graph) == depth}
-            changing = [graph for graph in level if graph == afresh or self.motion(graph) not in level[graph]]
+            changing = [
+                graph
+                for graph in level
+                if self.motion(graph) not in level[graph] or (graph == afresh and not self._begins(graph))
+            ]
             self._change({graph: level[graph] for graph in changing}, afresh)
 
     def hold(self, n_frames: int) -> None:
@@ -120,7 +124,7 @@ class Performer:
         track = self._driver(graph)
         self._lead_home(track)
         exits = track.graph.first_exit[track.position.motion]
-        rest = max(exits[-1] - track.position.frame, 0) if exits else 0
+        rest = exits[-1] - track.position.frame if exits else 0
         track.play(play_clip(track.time, track.position, rest))
         self._hold_until(track.time)
 
@@ -189,6 +193,13 @@ class Performer:
         raise PlayError(
             f"no walk on {graph} leads from {self.motion(graph)} to {names}; see `mlmg info` for what was lost"
         )
+
+    def _begins(self, graph: str) -> bool:
+        """Return whether a graph has just begun its motion: it could be entered no earlier."""
+        track = self._running.get(graph)
+        if track is None or track.position.motion != track.home:
+            return False
+        return track.position.frame <= track.graph.window
 
     def _entry(self, graph: str, changing: Mapping[str, Sequence[str]]) -> _Departure:
         """Return how a graph gets to where a candidate begins: along a path, or else by a blend on the spot."""

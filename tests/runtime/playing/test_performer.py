@@ -462,6 +462,31 @@ def test_a_part_leaves_no_way_round_on_which_it_could_not_stay_before_it_has_end
     check_timeline(library, performer)
 
 
+def test_a_part_leaves_on_a_way_round_that_it_can_stay_on(rewired) -> None:
+    way_round = [("Stand", 60, "Stroll", 20), ("Stroll", 40, "Stand", 8)]
+    library = rewired({"Full-Body": way_round, "Upper-Body": [("Stroll", 35, "Wave", 20)]})
+    performer = Performer(library, "Stand")
+    performer.hold(80)
+    performer.bring([("Upper-Body", ["Wave"])])
+    assert performer.now == 80 + 2 + 8
+
+
+# The body loops from frame 100 of Stand to frame 10, where it is at 108; there the part can leave and be there at 116.
+@pytest.mark.parametrize(("leaves", "sets_out", "arrives"), [(109, 108, 116), (108, 50, 116), (107, 50, 115)])
+def test_a_part_sets_out_later_where_it_then_arrives_sooner(rewired, leaves: int, sets_out: int, arrives: int) -> None:
+    library = rewired(
+        {
+            "Full-Body": [("Stand", 100, "Stand", 9)],
+            "Upper-Body": [("Stand", 10, "Wave", 20), ("Stand", leaves, "Wave", 20)],
+        }
+    )
+    performer = Performer(library, "Stand")
+    performer.hold(50)
+    performer.bring([("Upper-Body", ["Wave"])])
+    assert performer.timeline().tracks["Upper-Body"][0].begin == sets_out
+    assert performer.now == arrives
+
+
 def test_a_command_ends_the_parts_below_it_that_it_does_not_name(small_library: Library) -> None:
     performer = Performer(small_library, "Stand")
     performer.bring([("Left-Arm", ["Wave"]), ("Right-Arm", ["Reach"])])
@@ -502,6 +527,51 @@ def test_a_part_comes_back_on_a_way_of_two_seconds_but_not_on_a_longer_one(
     assert (performer.timeline().tracks["Upper-Body"][-1].after is None) == on_the_spot
 
 
+def test_the_two_seconds_of_a_way_back_count_from_when_the_part_is_to_end(rewired) -> None:
+    library = rewired(
+        {
+            "Full-Body": [("Stand", 110, "Stand", 20)],
+            "Upper-Body": [
+                ("Stand", 10, "Wave", 20),
+                ("Wave", 24, "Wave", 20),
+                ("Wave", 39, "Stand", 44),
+            ],
+        }
+    )
+    performer = Performer(library, "Stand")
+    performer.bring([("Upper-Body", ["Wave"])])
+    performer.hold(5)
+    performer.end("Upper-Body")
+    # From 29 on, when its loop has ended, it could be at 45 of Stand at 52, and meet the body at 87.
+    assert performer.timeline().tracks["Upper-Body"][-1].after is None
+
+
+def test_a_part_may_come_back_in_the_last_moment_to_a_clip_that_just_begins(rewired) -> None:
+    library = rewired(
+        {
+            "Full-Body": [("Stand", 70, "Stand", 20)],
+            "Upper-Body": [("Stand", 10, "Wave", 20), ("Wave", 60, "Stand", 15)],
+        }
+    )
+    performer = Performer(library, "Stand")
+    performer.bring([("Upper-Body", ["Wave"])])
+    performer.end("Upper-Body")
+    assert performer.now == 18 + 60
+    assert performer.timeline().tracks["Upper-Body"][-1].after == Position(0, 21)
+
+
+def test_each_time_that_a_part_ran_is_in_the_timeline(small_library: Library) -> None:
+    performer = Performer(small_library, "Stand")
+    begins = []
+    for _ in range(3):
+        begins.append(performer.now)
+        performer.bring([("Left-Arm", ["Wave"])])
+        performer.end("Left-Arm")
+        performer.hold(5)
+    found = runs(performer.timeline(), "Left-Arm")
+    assert [run[0].begin for run in found] == begins
+
+
 def test_rule_1_forbids_a_part_to_leave_a_motion_that_is_not_on_it(small_library: Library) -> None:
     performer = Performer(small_library, "Sway")
     with pytest.raises(PlayError, match=r"^Upper-Body cannot leave Sway, which is not on it \(rule 1\)$"):
@@ -517,6 +587,33 @@ def test_a_motion_that_no_walk_reaches_is_told_by_name(small_library: Library) -
     performer = Performer(replace(small_library, by_name=graphs), "Stand")
     with pytest.raises(PlayError, match=r"^no walk on Full-Body leads from Stand to Reach; see `mlmg info`"):
         performer.bring([("Full-Body", ["Reach"])])
+
+
+def test_a_part_that_cannot_reach_a_motion_from_wherever_it_leaves_is_told_so(rewired) -> None:
+    library = rewired({"Upper-Body": [("Stand", 10, "Stroll", 20), ("Wave", 10, "Stand", 20)]})
+    with pytest.raises(PlayError, match=r"^no walk on Upper-Body leads from Stand to Wave; see `mlmg info`"):
+        Performer(library, "Stand").bring([("Upper-Body", ["Wave"])])
+
+
+def test_what_was_refused_is_not_played(rewired) -> None:
+    # When it is asked, the body is about to leave Stroll for Sway, which it has to pass before a part can leave it.
+    way_round = [("Stand", 60, "Stroll", 20), ("Stroll", 40, "Sway", 20), ("Sway", 40, "Stand", 8)]
+    library = rewired({"Full-Body": way_round, "Upper-Body": []})
+    performer = Performer(library, "Stand")
+    performer.hold(60 + 8 + 19)
+    before = performer.timeline()
+    with pytest.raises(PlayError):
+        performer.bring([("Upper-Body", ["Wave"])])
+    assert performer.timeline() == before
+
+
+def test_a_motion_is_played_out_after_a_way_round_has_come_back_to_it(rewired) -> None:
+    library = rewired({"Full-Body": [("Stand", 60, "Stroll", 20), ("Stroll", 40, "Stand", 8)]})
+    performer = Performer(library, "Stand")
+    performer.hold(80)
+    performer.play_out("Full-Body")
+    assert performer.now == 60 + 8 + 19 + 8 + 111
+    assert performer.timeline().tracks["Full-Body"][-1].after == Position(0, 120)
 
 
 @pytest.mark.parametrize("start", ["Stand", "Stroll", "Sway", "Reach"])
@@ -563,6 +660,9 @@ def test_brought_to_its_start_a_motion_is_entered_at_its_first_frames(
     performer.hold(n_frames)
     performer.bring([("Full-Body", [motion])], from_start=True)
     assert performer.motion("Full-Body") == motion
+    if motion == "Stroll" and n_frames <= small_library.root.window:
+        assert performer.now == n_frames
+        return
     root = small_library.root
     last = performer.timeline().tracks["Full-Body"][-1]
     assert isinstance(last, Blend)
@@ -601,6 +701,7 @@ def test_where_a_path_leads_to_where_a_motion_begins_it_is_taken(small_library: 
 def test_a_motion_that_plays_already_begins_again(small_library: Library) -> None:
     performer = Performer(small_library, "Stand")
     performer.bring([("Full-Body", ["Stand"])], from_start=True)
+    assert performer.now == 0
     performer.play_pass("Full-Body")
     first = performer.now
     performer.bring([("Full-Body", ["Stand"])], from_start=True)
@@ -619,8 +720,67 @@ def test_a_part_begins_its_motion_though_the_body_plays_that_too(small_library: 
     assert passed.after == Position(upper.index["Stand"], last_exit(small_library, "Upper-Body", "Stand"))
 
 
+def begins_again(library: Library, performer: Performer, graph: str) -> bool:
+    """Return whether a graph enters a motion at its first frames."""
+    blends = [segment for segment in performer.timeline().tracks[graph] if isinstance(segment, Blend)]
+    return any(blend.target.frame == library.by_name[graph].window - 1 for blend in blends)
+
+
 def test_below_a_motion_that_begins_again_parts_are_brought_as_usual(small_library: Library) -> None:
     performer = Performer(small_library, "Stroll")
     performer.bring([("Full-Body", ["Stand"]), ("Upper-Body", ["Wave"])], from_start=True)
+    assert begins_again(small_library, performer, "Full-Body")
+    assert not begins_again(small_library, performer, "Upper-Body")
     performer.play_pass("Full-Body")
     assert (performer.motion("Full-Body"), performer.motion("Upper-Body")) == ("Stand", "Wave")
+
+
+def test_a_part_begins_its_motion_though_a_sibling_has_to_come_back_first(small_library: Library) -> None:
+    performer = Performer(small_library, "Stand")
+    performer.bring([("Left-Arm", ["Wave"])])
+    performer.bring([("Right-Arm", ["Reach"]), ("Left-Arm", ["Stand"])], from_start=True)
+    assert not performer.runs("Left-Arm")
+    assert begins_again(small_library, performer, "Right-Arm")
+
+
+@pytest.mark.parametrize(
+    ("transitions", "taken"),
+    [
+        ([("Stand", 40, "Stroll", 20), ("Stand", 30, "Reach", 20)], "Reach"),
+        ([("Stand", 30, "Stroll", 20), ("Stand", 40, "Reach", 20)], "Stroll"),
+        ([("Stand", 40, "Sway", 20)], "Reach"),
+    ],
+)
+def test_of_motions_whose_beginning_no_walk_reaches_the_one_reached_soonest_or_the_first_begins(
+    rewired, transitions: list[tuple[str, int, str, int]], taken: str
+) -> None:
+    library = rewired({"Full-Body": transitions})
+    performer = Performer(library, "Stand")
+    performer.hold(10)
+    performer.bring([("Full-Body", ["Reach", "Stroll"])], from_start=True)
+    assert performer.motion("Full-Body") == taken
+    # It is begun on the spot.
+    assert performer.now == 10 + 8
+    assert begins_again(library, performer, "Full-Body")
+
+
+def test_a_pass_of_a_motion_is_played_after_a_way_round_has_come_back_to_it(rewired) -> None:
+    library = rewired({"Full-Body": [("Stand", 60, "Stroll", 20), ("Stroll", 40, "Stand", 8)]})
+    performer = Performer(library, "Stand")
+    performer.hold(80)
+    performer.play_pass("Full-Body")
+    assert performer.now == 60 + 8 + 19 + 8 + 51
+    assert performer.timeline().tracks["Full-Body"][-1].after == Position(0, 60)
+    # There it is already.
+    performer.play_pass("Full-Body")
+    assert performer.now == 60 + 8 + 19 + 8 + 51
+
+
+@pytest.mark.parametrize(("n_frames", "begins_again"), [(0, False), (1, False), (60, True)])
+def test_a_motion_that_has_just_begun_need_not_begin_again(
+    small_library: Library, n_frames: int, begins_again: bool
+) -> None:
+    performer = Performer(small_library, "Stand")
+    performer.hold(n_frames)
+    performer.bring([("Full-Body", ["Stand"])], from_start=True)
+    assert (performer.now > n_frames) == begins_again
