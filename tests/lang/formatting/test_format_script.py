@@ -2,18 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any
 
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.strategies import SearchStrategy
 
 from mlmg_lang.formatting.format_script import format_script
+from mlmg_lang.front_end import analyse
 from mlmg_lang.parsing.parse import parse
 from mlmg_lang.parsing.tokenize import tokenize
 from mlmg_lang.source import Source
 
 Formatted = Callable[[str], str]
+TESTS = Path(__file__).parents[2]
+WRITTEN = sorted((TESTS / "golden" / "formatted").glob("*.ms"))
+INVALID = sorted((TESTS / "invalid").glob("*.ms"))
 PIECES = [
     *("WALK", "Upper-Body", "with", "and", "or", "not", "for", "once", "10", "sec", "2:", "let", "use", "wait", "end"),
     *("repeat 2 {", "choose {", "repeat", "{", "}", "}", "(", ")", "|", ";", ";", ",", "=", ":", "$", "."),
@@ -21,7 +28,27 @@ PIECES = [
 ]
 
 
-@settings(max_examples=300)
+@pytest.mark.parametrize("path", WRITTEN, ids=lambda path: path.stem)
+def test_each_construct_has_its_form(path: Path, formatted: Formatted, golden: Callable[[Path, str], None]) -> None:
+    golden(path.with_suffix(".txt"), formatted(path.read_text(encoding="utf-8")))
+
+
+def test_no_form_is_left_without_its_script() -> None:
+    folder = TESTS / "golden" / "formatted"
+    assert {path.stem for path in folder.glob("*.txt")} == {path.stem for path in WRITTEN}
+
+
+@pytest.mark.parametrize("path", INVALID, ids=lambda path: path.stem)
+def test_a_wrong_script_is_told_the_same_when_it_is_formatted(
+    path: Path, formatted: Formatted, libraries: Mapping[str, Any]
+) -> None:
+    text = path.read_bytes().decode("utf-8")
+    library = libraries[text.split("\n", 1)[0].removeprefix("# library: ")]
+    before, after = (analyse(Source(one), library).diagnostics for one in (text, formatted(text)))
+    assert [one.code for one in after] == [one.code for one in before]
+
+
+@settings(max_examples=150)
 @given(data=st.data())
 def test_a_valid_script_keeps_its_meaning_and_comments(
     data: st.DataObject, scripts: SearchStrategy[str], formatted: Formatted
