@@ -1,13 +1,13 @@
 # make demo    install, and play examples/tour.ms on the demo library into tour.bvh
 # make test    all tests
 # make lint    style and who may import whom;  make types: mypy;  make bench: measurements beside peers
-# make pictures  the pictures of the README
+# make pictures  the pictures of the README;  make grammars: what editors and the docs have of the grammar
 
 PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 
-.PHONY: demo test lint types bench pictures wheel clean
+.PHONY: demo test lint types bench pictures grammars wheel clean
 
 demo: $(VENV)/installed
 	$(BIN)/mlmgc examples/tour.ms -o tour.bvh --report tour.json
@@ -29,6 +29,9 @@ bench: $(VENV)/bench-tools
 
 pictures: $(VENV)/test-tools demo
 	$(BIN)/mlmg view tour.bvh --report tour.json -o docs/tour.png
+
+grammars: $(VENV)/installed
+	$(BIN)/python -m mlmg_grammar.generate --docs docs
 
 # The wheel, built and tested as it is installed, not the source tree.
 wheel: $(VENV)/test-tools
