@@ -18,6 +18,10 @@ _ENDS_NAME: Final = re.compile(r"\s*#|\s+(?:with|and|or|for|once)(?!\S)")
 """What stands rather behind a name whose closing quote was forgotten than in it."""
 
 
+_CURLY: Final = frozenset("\u201c\u201d\u201e\u201f\u00ab\u00bb\u2018\u2019\u201a")
+"""What editors for prose make of quotes."""
+
+
 def check_tokens(tokens: Iterable[Token]) -> Iterator[Diagnostic]:
     """Yield what is wrong with names and quoted names."""
     for token in tokens:
@@ -68,9 +72,20 @@ def _odd_name(token: Token) -> Diagnostic:
         message = f"a name without quotes cannot {does}: wide letters and signs have no meaning here"
         fix = Fix(token.span, plain, safe=True)
         return Diagnostic("MS003", message, token.span, f"write `{plain}`", fixes=(fix,))
+    if _CURLY & set(token.text):
+        return _curly_quotes(token, f"a name without quotes cannot {does}")
     fixes = (Fix(token.span, f'"{token.text}"', safe=True),) if token.text.isprintable() else ()
     message = f"a name without quotes cannot {does}"
     return Diagnostic("MS003", message, token.span, "write the name in double quotes", fixes=fixes)
+
+
+def _curly_quotes(token: Token, message: str) -> Diagnostic:
+    inside = token.text.strip("".join(_CURLY))
+    advice = 'quotes are written `"`, not as they are printed'
+    if token.text[0] not in _CURLY or token.text[-1] not in _CURLY or _CURLY & set(inside):
+        return Diagnostic("MS003", message, token.span, advice)
+    right = script_name(inside)
+    return Diagnostic("MS003", message, token.span, f"{advice}: `{right}`", fixes=(Fix(token.span, right, safe=True),))
 
 
 def _shown(letter: str) -> str:

@@ -11,6 +11,7 @@ from mlmg_lang.parsing.case import is_shouted, wrong_case
 from mlmg_lang.parsing.lexical import script_name
 from mlmg_lang.parsing.structure import SUB, group_of, is_sub
 from mlmg_lang.planning.names import Names
+from mlmg_lang.source import Span
 from mlmg_lang.spelling import listed, nearest, normal
 
 _MAX_LISTED = 8
@@ -138,6 +139,8 @@ def _qualified(node: syntax.Qualified, scope: Scope) -> Iterator[Unbound]:
         yield Unbound(_swapped(node, names))
     elif wrong and is_shouted(graph):
         yield from wrong
+    elif wrong and not inner and names.places(graph.text):
+        yield Unbound(_side_by_side(node, names))
     elif wrong and inner and is_shouted(name):
         yield from inner
     else:
@@ -214,7 +217,7 @@ def _unknown_graph(name: syntax.Name, names: Names) -> Diagnostic:
 def _not_a_graph(name: syntax.Name, names: Names) -> Diagnostic:
     kind = _kind(name, names)
     message = f"`{name.text}` is a {kind}, not a graph"
-    return Diagnostic("MS025", message, name.span, "join motions by `with` or `and`")
+    return Diagnostic("MS025", message, name.span, f"the graphs are {listed(names.graphs)}")
 
 
 def _swapped(node: syntax.Qualified, names: Names) -> Diagnostic:
@@ -222,6 +225,15 @@ def _swapped(node: syntax.Qualified, names: Names) -> Diagnostic:
     right = f"{script_name(graph or '')} {script_name(motion.text)}"
     message = f"`{motion.text}` is a {_kind(motion, names)}, not a graph; the graph comes first"
     return Diagnostic("MS025", message, node.span, f"write `{right}`", fixes=(Fix(node.span, right, safe=True),))
+
+
+def _side_by_side(node: syntax.Qualified, names: Names) -> Diagnostic:
+    first, second = node.graph, node.motion.name
+    message = f"`{first.text}` is a {_kind(first, names)}, not a graph: a word is missing before `{second.text}`"
+    both = f"{script_name(first.text)} with {script_name(second.text)}"
+    advice = f"for both at once, write `{both}`; what comes later stands on a line of its own"
+    place = Span(second.span.start, second.span.start)
+    return Diagnostic("MS025", message, node.span, advice, fixes=(Fix(place, "with ", safe=False),))
 
 
 def _graph_alone(name: syntax.Name, names: Names) -> Diagnostic:

@@ -102,7 +102,7 @@ def _not_on(name: syntax.Name, tried: Sequence[str], names: Names) -> Diagnostic
     tags = _tags_of(entry, tried[0], names) if entry.kind is Kind.TAG else ()
     if tags:
         advice += f"; the same motions are {listed(tags)} on `{tried[0]}`"
-    near = (*nearest(name.text, names.spellings_on(tried[0]), limit=1), *tags)
+    near = (*tags, *nearest(name.text, names.spellings_on(tried[0]), limit=1))
     fixes = tuple(Fix(name.span, script_name(word), safe=False) for word in dict.fromkeys(near))
     return Diagnostic("MS022", message, name.span, advice, fixes=fixes)
 
@@ -155,7 +155,9 @@ def _no_combination(motion: syntax.Motion, chosen: Sequence[str], source: Source
     if isinstance(motion, syntax.And):
         parts = [source.slice(operand.span) for operand in motion.operands]
         message = f"nothing{place} has {'both ' if len(parts) == 2 else ''}{some(parts)}"
-        advice = None if chosen else "nor can they be shared out over different graphs"
+        advice = "nor can they be shared out over different graphs"
+        if chosen:
+            advice = "`or` instead of `and` takes what has either" if len(parts) == 2 else "`or` takes what has any"
         return Diagnostic("MS032", message, motion.span, advice)
     inner = next((node for node in syntax.walk(motion) if isinstance(node, syntax.And)), None)
     if inner is not None and not isinstance(motion, syntax.Not):

@@ -17,8 +17,9 @@ from mlmg_lang.planning import flow, resolved, typed
 from mlmg_lang.planning.chart import START, Step, chart
 from mlmg_lang.planning.names import Kind, Names
 from mlmg_lang.planning.resolved import LeftOut
+from mlmg_lang.planning.stops import reason
 from mlmg_lang.source import Source, Span
-from mlmg_lang.spelling import listed, nearest, some
+from mlmg_lang.spelling import listed, nearest
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,7 +88,7 @@ def _start(
             return match.entry.name, ()
         message = f"there is no motion `{given}` on `{names.root}` to start in"
         near = nearest(given, names.motions(names.root))
-        return of_library, (Diagnostic("MS044", message, None, f"there is {listed(near)}" if near else None),)
+        return of_library, (Diagnostic("MS044", message, None, f"there is {listed(near, 'or')}" if near else None),)
     first = next((one for one in plan.statements if not isinstance(one, typed.Wait | typed.End)), None)
     return (first.start if isinstance(first, typed.Command) else None) or of_library, ()
 
@@ -218,7 +219,7 @@ class _Resolver:
         first = self.first_stop.setdefault(number, stopped)
         self.ways[number] = self.ways.get(number, 0) + 1
         if self.ways[number] == len(command.ways):
-            self.told[number] = told_from(self._reason(first), command.span)
+            self.told[number] = told_from(self._reason(command, first), command.span)
             self.done.pop(command.span, None)
         return self._back_to(number)
 
@@ -276,29 +277,21 @@ class _Resolver:
         part = state.parts.get(graph)
         if state.certain and (part is None or not part.alone):
             message = f"`{graph}` does not run on its own here, so there is nothing to end"
-            self.told[number] = Diagnostic("MS043", message, end.span, fixes=(Fix(end.span, "", safe=False),))
+            fixes = (Fix(end.span, "", safe=False),)
+            self.told[number] = Diagnostic("MS043", message, end.span, "take it out", fixes=fixes)
         return flow.ended(state, graph, self.names)
 
     # --- what to say ---
 
-    def _reason(self, stopped: flow.Stopped) -> Diagnostic:
+    def _reason(self, command: typed.Command, stopped: flow.Stopped) -> Diagnostic:
         """Say why a command cannot be obeyed."""
-        motions = some(stopped.motions)
-        notes = tuple(self._origin(stopped))
-        if not stopped.by_rule_1:
-            message = f"from {motions}, nothing asked of `{stopped.graph}` can be reached on that graph"
-            return Diagnostic("MS041", message, stopped.span, notes=notes)
-        graph, above = stopped.graph, stopped.above
-        verb = "is" if len(stopped.motions) == 1 else "are"
-        message = f"`{graph}` cannot leave {motions}, which {verb} not on it"
-        free = [motion for motion in self.names.motions(above) if motion in self.names.motion_set(graph)]
-        advice = f"it can leave these of `{above}`: {some(free)}" if free else None
-        return Diagnostic("MS040", message, stopped.span, advice, notes)
+        above = command if stopped.setter is None else self.steps[stopped.setter[0]].statement
+        return reason(stopped, above, tuple(self._origin(stopped)), self.names, self.catalog)
 
     def _origin(self, stopped: flow.Stopped) -> Iterator[Note]:
         """Yield where the motions come from that stand in the way, if it is not this command itself."""
         if stopped.setter is not None:
-            yield Note(f"`{stopped.above}` is set here", self._span(stopped.setter[0]))
+            yield Note(f"this is what `{stopped.above}` plays then", self._span(stopped.setter[0]))
         elif not stopped.within:
             yield Note(f"the character starts in `{self.start}`")
 

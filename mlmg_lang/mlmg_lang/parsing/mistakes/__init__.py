@@ -10,7 +10,7 @@ from collections.abc import Callable
 from typing import Final
 
 from mlmg_lang.parsing.line_parser import Stuck
-from mlmg_lang.parsing.mistakes import durations, motions, signs, words
+from mlmg_lang.parsing.mistakes import durations, heads, motions, signs, words
 from mlmg_lang.parsing.mistakes.mistake import Mistake, expected, found, mistake
 from mlmg_lang.spelling import joined
 
@@ -30,7 +30,10 @@ def explain(stuck: Stuck) -> Mistake:
 _RULES: Final[tuple[Callable[[Stuck], Mistake | None], ...]] = (
     words.wrong_case,
     durations.odd_number,
+    durations.clock_time,
     durations.two_quantities,
+    durations.duration_first,
+    heads.weight_not_whole,
     signs.name_from_digit,
     durations.for_missing,
     durations.for_too_much,
@@ -39,16 +42,23 @@ _RULES: Final[tuple[Callable[[Stuck], Mistake | None], ...]] = (
     durations.for_not_last,
     durations.for_and_once,
     motions.not_after_graph,
+    heads.not_behind_name,
+    heads.graph_missing,
+    heads.path_missing,
+    heads.equals_missing,
     motions.parenthesis,
     words.reserved_as_name,
+    heads.name_missing,
     durations.amount_missing,
     motions.no_motion_after,
     motions.nothing_before,
     signs.stray_character,
     words.misspelt_word,
+    words.space_missing,
     words.head_without_body,
     signs.stray_sign,
     motions.three_names,
     motions.lone_number,
+    motions.after_the_end,
 )
 """The special before the general."""

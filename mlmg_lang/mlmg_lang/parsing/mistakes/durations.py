@@ -40,7 +40,8 @@ def _odd_beginning(stuck: Stuck, sign: Token, after: Token) -> Mistake | None:
     """Say what is wrong with a sign directly before a number."""
     span = across(sign, after)
     if sign.text in ("-", "+"):
-        message, right = "a duration has no sign", after.text
+        what = "how often something is repeated" if stuck.tokens[0].type == "REPEAT" else "a duration"
+        message, right = f"{what} has no sign", after.text
     elif after.type == "INTEGER":
         message, right = f"a number begins with a digit, not with `{sign.text}`", f"0.{after.text}"
     else:
@@ -52,6 +53,47 @@ def _odd_beginning(stuck: Stuck, sign: Token, after: Token) -> Mistake | None:
 
 def _number(text: str, span: Span) -> Token:
     return Token("DECIMAL" if "." in text else "INTEGER", text, span)
+
+
+def clock_time(stuck: Stuck) -> Mistake | None:
+    """`for 1:30 min`, `for 5-10 sec`."""
+    first, sign, second, unit = (stuck.token(offset) for offset in (-1, 0, 1, 2))
+    if first is None or first.type not in NUMBERS or sign is None or sign.text not in (":", "-"):
+        return None
+    if second is None or second.type not in NUMBERS or stuck.type(-2) not in ("FOR", "WAIT"):
+        return None
+    has_unit = unit is not None and unit.text.lower() in UNITS
+    span = across(first, unit if unit is not None and has_unit else second)
+    meant = replaced(stuck, stuck.at - 1, *_seconds("1", span), n=4 if has_unit else 3)
+    message = "a duration is one number and one unit"
+    if sign.text == "-" or "." in first.text:
+        return mistake("MS017", message, span, "write one number, as in `for 10 sec`", meant=meant)
+    total = spelled(int(first.text) * 60 + float(second.text))
+    fix = Fix(span, f"{total} sec", safe=False)
+    return mistake("MS017", message, span, f"for minutes and seconds, write `{total} sec`", fix, meant=meant)
+
+
+def _seconds(number: str, span: Span) -> tuple[Token, Token]:
+    return _number(number, span), Token("UNIT", "sec", span)
+
+
+def duration_first(stuck: Stuck) -> Mistake | None:
+    """`3 sec WALK`, `3 sec`."""
+    if stuck.at > 1 or len(stuck.tokens) < 2:
+        return None
+    number, unit, *rest = stuck.tokens
+    if number.type not in NUMBERS or unit.text not in UNITS:
+        return None
+    amount = across(number, unit)
+    written = stuck.source.slice(amount)
+    if not rest:
+        place = Span(amount.start, amount.start)
+        advice = f"to let time pass, write `wait {written}`"
+        return mistake("MS010", "a duration alone is no command", amount, advice, Fix(place, "wait ", safe=False))
+    right = f"{stuck.source.slice(across(rest[0], rest[-1]))} for {written}"
+    fix = Fix(across(number, rest[-1]), right, safe=False)
+    meant = (*rest, Token("FOR", "for", amount), number, unit)
+    return mistake("MS010", "how long comes last, after `for`", amount, f"write `{right}`", fix, meant=meant)
 
 
 def two_quantities(stuck: Stuck) -> Mistake | None:

@@ -8,6 +8,8 @@ from mlmg_lang.diagnostics import Fix
 from mlmg_lang.parsing.line_parser import Stuck
 from mlmg_lang.parsing.mistakes.mistake import Mistake, across, found, mistake, replaced
 from mlmg_lang.parsing.tokens import CONTINUES, JOINERS, NAMES, NUMBERS, Token
+from mlmg_lang.source import Span
+from mlmg_lang.spelling import listed
 
 
 def no_motion_after(stuck: Stuck) -> Mistake | None:
@@ -15,6 +17,10 @@ def no_motion_after(stuck: Stuck) -> Mistake | None:
     word, token = stuck.token(-1), stuck.token(0)
     if word is None or stuck.type(0) in NAMES | NUMBERS | {"UNKNOWN"} or "NAME" not in stuck.accepts:
         return None
+    if token is not None and word.type == token.type and word.type in JOINERS - {"NOT"}:
+        fix = Fix(Span(word.span.end, token.span.end), "", safe=True)
+        message = f"`{token.text}` stands here twice"
+        return mistake("MS014", message, token.span, "take one of them out", fix, meant=replaced(stuck, stuck.at))
     if word.type in JOINERS:
         message = f"`{word.text}` needs a motion after it, found {found(stuck)}"
         advice = f"write what comes after it, or take `{word.text}` out"
@@ -79,9 +85,36 @@ def three_names(stuck: Stuck) -> Mistake | None:
     token = stuck.token(0)
     if token is None or token.type not in NAMES or "WITH" not in stuck.accepts:
         return None
-    message = f"`{token.text}` cannot follow here: a word is missing between these names"
     advice = "join motions by `with`, `and` or `or`; what is played later stands on a line of its own"
-    return mistake("MS010", message, token.span, advice)
+    names = [*_names_before(stuck), token]
+    if len(names) < 3:
+        message = f"`{token.text}` cannot follow here: a word is missing before it"
+        return mistake("MS010", message, token.span, advice)
+    span = across(names[0], token)
+    message = f"a word is missing between {listed(name.text for name in names)}"
+    if len(names) > 3 or "-" not in names[1].text:
+        return mistake("MS010", message, span, advice)
+    # Names of graphs mostly have a hyphen. Whether it is one, nobody knows here.
+    place = Span(names[1].span.start, names[1].span.start)
+    right = f"{names[0].text} with {names[1].text} {token.text}"
+    return mistake("MS010", message, span, f"for both at once, write `{right}`", Fix(place, "with ", safe=False))
+
+
+def _names_before(stuck: Stuck) -> list[Token]:
+    """Return the names that stand side by side before the one that does not fit."""
+    first = stuck.at
+    while first > 0 and stuck.tokens[first - 1].type in NAMES:
+        first -= 1
+    return list(stuck.tokens[first : stuck.at])
+
+
+def after_the_end(stuck: Stuck) -> Mistake | None:
+    """`WALK for 3 sec TALK`, `WALK for 3 sec 4`."""
+    token = stuck.token(0)
+    if token is None or stuck.accepts != {"$END"}:
+        return None
+    message = f"`{token.text}` cannot follow here: the statement ends before it"
+    return mistake("MS010", message, token.span, "what is played later stands on a line of its own, or after `;`")
 
 
 def lone_number(stuck: Stuck) -> Mistake | None:

@@ -14,6 +14,7 @@ from mlmg_lang.parsing.tokens import NAMES, NUMBERS, Token
 
 _MEANT: Final[Mapping[str, tuple[str, str]]] = MappingProxyType(
     {
+        "+": ("WITH", "with"),
         "&": ("AND", "and"),
         "&&": ("AND", "and"),
         "!": ("NOT", "not "),
@@ -22,6 +23,11 @@ _MEANT: Final[Mapping[str, tuple[str, str]]] = MappingProxyType(
     }
 )
 """Signs of other languages: the token that they stand for, and how it is written."""
+
+_COMMENTS: Final = ("//", "--", "/*")
+"""What comments begin with in other languages."""
+_LATER: Final = ("->", "=>", ">", ">>")
+"""What leads from one thing to the next in other languages."""
 
 _ELSEWHERE: Final[Mapping[str, tuple[str, str]]] = MappingProxyType(
     {
@@ -65,12 +71,29 @@ def stray_character(stuck: Stuck) -> Mistake | None:
         meant = replaced(stuck, stuck.at, replace(token, type=kind, text=text))
         fix = Fix(token.span, text, safe=False)
         return mistake("MS003", message, token.span, f"did you mean `{text.strip()}`?", fix, meant=meant)
-    return _part_of_name(stuck, message, token) or mistake(
-        "MS003",
-        message,
-        token.span,
-        "a name with other signs than letters, digits, `_` and `-` needs double quotes",
+    advice = "a name with other signs than letters, digits, `_` and `-` needs double quotes"
+    return (
+        _other_language(stuck, message, token)
+        or _part_of_name(stuck, message, token)
+        or mistake("MS003", message, token.span, advice)
     )
+
+
+def _other_language(stuck: Stuck, message: str, token: Token) -> Mistake | None:
+    """Tell how it is written here what other languages, or sentences, write with a sign."""
+    if token.text in _COMMENTS and (stuck.at == 0 or token.span.start > stuck.tokens[stuck.at - 1].span.end):
+        meant = stuck.tokens[: stuck.at]
+        return mistake("MS003", message, token.span, "a comment begins with `#`", Fix(token.span, "#", safe=False),
+                       meant=meant)  # fmt: skip
+    if token.text in _LATER:
+        advice = "what is played later stands on a line of its own, or after `;`"
+        return mistake("MS003", message, token.span, advice, Fix(token.span, ";", safe=False))
+    if token.text in (".", "!", "?") and stuck.left == 1 and stuck.at:
+        fix = Fix(token.span, "", safe=False)
+        return mistake("MS003", message, token.span, "take it out", fix, meant=replaced(stuck, stuck.at))
+    if token.text in ("'", "`"):
+        return mistake("MS003", message, token.span, 'a name is quoted with `"`')
+    return None
 
 
 def _part_of_name(stuck: Stuck, message: str, token: Token) -> Mistake | None:
@@ -85,7 +108,9 @@ def _part_of_name(stuck: Stuck, message: str, token: Token) -> Mistake | None:
     quoted = f'"{stuck.source.slice(span)}"'
     if not token.text.isprintable() or "\\" in quoted or last.type == "STRING":
         return None
-    meant = replaced(stuck, stuck.at - 1, Token("STRING", quoted, span), n=2 if last is token else 3)
+    # Not the quoted name, which the library hardly has: that would be a second message.
+    name = Token("NAME", stuck.source.slice(span), span)
+    meant = replaced(stuck, stuck.at - 1, name, n=2 if last is token else 3)
     advice = f"as a part of a name, write `{quoted}`"
     return mistake("MS003", message, token.span, advice, Fix(span, quoted, safe=False), meant=meant)
 
@@ -98,4 +123,7 @@ def stray_sign(stuck: Stuck) -> Mistake | None:
     if token.type == "EQUALS" and stuck.tokens[0].type == "LET":
         return None
     message, advice = _ELSEWHERE[token.type]
+    if token.type in ("COMMA", "COLON") and stuck.left == 1 and stuck.at:
+        fix = Fix(token.span, "", safe=False)
+        return mistake("MS010", message, token.span, "take it out", fix, meant=replaced(stuck, stuck.at))
     return mistake("MS010", message, token.span, advice)

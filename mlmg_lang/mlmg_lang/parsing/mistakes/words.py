@@ -77,10 +77,29 @@ def misspelt_word(stuck: Stuck) -> Mistake | None:
     return None
 
 
+def space_missing(stuck: Stuck) -> Mistake | None:
+    """`WALK for10 sec`."""
+    for at in range(min(stuck.at, len(stuck.tokens) - 1), max(stuck.at - 2, -1), -1):
+        token = stuck.tokens[at]
+        digits = token.text.removeprefix("for") if token.text.startswith("for") else token.text.removeprefix("wait")
+        word = token.text.removesuffix(digits)
+        if token.type != "NAME" or not word or not (digits.isascii() and digits.isdigit()):
+            continue
+        middle = token.span.start + len(word)
+        parts = (replace(token, type=word.upper(), text=word, span=Span(token.span.start, middle)),
+                 Token("INTEGER", digits, Span(middle, token.span.end)))  # fmt: skip
+        meant = replaced(stuck, at, *parts)
+        if gets_further(stuck, meant):
+            fix = Fix(Span(middle, middle), " ", safe=False, name="add a space")
+            message = f"a space is missing behind `{word}`"
+            return mistake("MS019", message, token.span, f"write `{word} {digits}`", fix, meant=meant)
+    return None
+
+
 def reserved_as_name(stuck: Stuck) -> Mistake | None:
     """`TALK with to`."""
     token = stuck.token(0)
-    if token is None or "NAME" not in stuck.accepts or token.type in JOINERS:
+    if token is None or "NAME" not in stuck.accepts or (token.type in JOINERS and stuck.type(-1) != "LET"):
         return None
     if token.text not in reserved_words(motion_script()):
         return None
@@ -100,8 +119,10 @@ def head_without_body(stuck: Stuck) -> Mistake | None:
         if "INTEGER" in stuck.accepts:
             message = f"`repeat` needs a whole number after it{f', found {found(stuck)}' if stuck.left else ''}"
             return mistake("MS010", message, stuck.span, advice)
-        return mistake("MS013", "the statements to repeat stand in `{ }`", stuck.span, advice)
+        message = f"`repeat {stuck.tokens[1].text}` is followed by its statements in `{{ }}`, found {found(stuck)}"
+        return mistake("MS013", message, stuck.span, advice)
     if first.type == "CHOOSE":
         advice = "write `choose { ... | ... }`"
-        return mistake("MS013", "the branches to choose from stand in `{ }`", stuck.span, advice)
+        message = f"`choose` is followed by its branches in `{{ }}`, found {found(stuck)}"
+        return mistake("MS013", message, stuck.span, advice)
     return None
