@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -16,6 +16,7 @@ from mlmg_runtime.library import Library
 from mlmg_runtime.playing.performer import Performer
 from mlmg_runtime.playing.report import joints_from_timeline, output_frame, tracks_from_timeline
 from mlmg_runtime.playing.synthesis import synthesize
+from mlmg_runtime.playing.timeline import Timeline
 
 
 class ScriptError(FileError):
@@ -28,6 +29,31 @@ class Performance:
 
     bvh: Bvh
     report: dict[str, Any]
+
+
+@dataclass(frozen=True, slots=True)
+class Executed:
+    """A statement as it was executed, in frames of the library's rate.
+
+    Attributes
+    ----------
+    arrive : when all parts had arrived; where nothing moves, `begin`.
+    motions : by graph that a command names, what drove it on arrival.
+    """
+
+    statement: Step
+    begin: int
+    arrive: int
+    end: int
+    motions: Mapping[str, str]
+
+
+@dataclass(frozen=True, slots=True)
+class Rehearsal:
+    """What is played when, before any pose is made."""
+
+    steps: tuple[Executed, ...]
+    timeline: Timeline
 
 
 def perform(
@@ -50,23 +76,8 @@ def perform(
     ScriptError
         With the line of the statement that cannot be played.
     """
-    performer = Performer(library, plan.start)
-    commands = []
-    counted = library.root.name
-    for statement, is_last in _with_last(executed(plan, seed)):
-        begin = performer.now
-        try:
-            arrive = _execute(performer, statement, counted, is_last)
-        except PlayError as error:
-            line, _ = plan.source.position(statement.span.start)
-            raise ScriptError(plan.source.name, line, str(error)) from None
-        if isinstance(statement, Command):
-            counted = statement.layers[0].graph
-            motions = {layer.graph: performer.motion(layer.graph) for layer in statement.layers}
-            commands.append((statement, begin, arrive, performer.now, motions))
-    if performer.now == 0:
-        performer.hold(1)
-    timeline = performer.timeline()
+    rehearsal = rehearse(plan, library, seed)
+    timeline = rehearsal.timeline
     poses = synthesize(library, timeline, blend)
     rate = frame_rate or library.frame_rate
     poses = resample(poses, library.frame_rate, rate)
@@ -77,11 +88,43 @@ def perform(
         "n_frames": poses.n_frames,
         "seed": seed,
         "up": library.up,
-        "commands": [_command_entry(plan, *entry, ratio=ratio, n_frames=poses.n_frames) for entry in commands],
+        "commands": [
+            _command_entry(plan, step, ratio, poses.n_frames)
+            for step in rehearsal.steps
+            if isinstance(step.statement, Command)
+        ],
         "tracks": tracks_from_timeline(library, timeline, ratio, poses.n_frames),
         "joints": joints_from_timeline(library, timeline),
     }
     return Performance(bvh_from_poses(library.skeleton, poses, 1.0 / rate, library.up), report)
+
+
+def rehearse(plan: ResolvedPlan, library: Library, seed: int = 0) -> Rehearsal:
+    """Decide what a plan plays when, as `perform` does; clips are read only where that depends on them.
+
+    Raises
+    ------
+    ScriptError
+        With the line of the statement that cannot be played.
+    """
+    performer = Performer(library, plan.start)
+    steps = []
+    counted = library.root.name
+    for statement, is_last in _with_last(executed(plan, seed)):
+        begin = performer.now
+        try:
+            arrive = _execute(performer, statement, counted, is_last)
+        except PlayError as error:
+            line, _ = plan.source.position(statement.span.start)
+            raise ScriptError(plan.source.name, line, str(error)) from None
+        motions: dict[str, str] = {}
+        if isinstance(statement, Command):
+            counted = statement.layers[0].graph
+            motions = {layer.graph: performer.motion(layer.graph) for layer in statement.layers}
+        steps.append(Executed(statement, begin, arrive, performer.now, motions))
+    if performer.now == 0:
+        performer.hold(1)
+    return Rehearsal(tuple(steps), performer.timeline())
 
 
 def _with_last(steps: Iterable[Step]) -> Iterator[tuple[Step, bool]]:
@@ -118,7 +161,9 @@ def _execute(performer: Performer, statement: Step, counted: str, is_last: bool)
                 performer.play_out(layers[0].graph)
             return arrive
         case Wait(duration=duration):
+            begin = performer.now
             performer.hold(_n_frames(performer, duration, counted))
+            return begin
         case End(graph=graph):
             performer.end(graph)
     return performer.now
@@ -131,18 +176,9 @@ def _n_frames(performer: Performer, duration: Seconds | Cycles, counted: str) ->
     return round(duration.number * performer.library.n_frames(performer.motion(counted)))
 
 
-def _command_entry(
-    plan: ResolvedPlan,
-    command: Command,
-    begin: int,
-    arrive: int,
-    end: int,
-    motions: dict[str, str],
-    *,
-    ratio: float,
-    n_frames: int,
-) -> dict[str, Any]:
-    begin, arrive, end = (output_frame(frame, ratio, n_frames) for frame in (begin, arrive, end))
-    text = " ".join(plan.source.slice(command.span).split())
-    location = list(plan.source.location(command.span))
-    return {"text": text, "span": location, "begin": begin, "arrive": arrive, "end": end, "motions": motions}
+def _command_entry(plan: ResolvedPlan, step: Executed, ratio: float, n_frames: int) -> dict[str, Any]:
+    begin, arrive, end = (output_frame(frame, ratio, n_frames) for frame in (step.begin, step.arrive, step.end))
+    span = step.statement.span
+    text = " ".join(plan.source.slice(span).split())
+    location = list(plan.source.location(span))
+    return {"text": text, "span": location, "begin": begin, "arrive": arrive, "end": end, "motions": dict(step.motions)}
