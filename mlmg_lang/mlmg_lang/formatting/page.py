@@ -35,8 +35,8 @@ class Page:
 
     def comment(self, indent: int, text: str, trails: bool) -> None:
         """Add a comment: behind the last row, or in a row of its own."""
-        trails = self.end_lead() or trails
-        if trails and self._rows and not self._rows[-1].comment:
+        self.end_lead()
+        if trails and self._rows:
             self._rows[-1].comment = text
         else:
             self._add(Row(indent, "", text))
@@ -61,14 +61,12 @@ class Page:
         self._blank = False
         self._lead = Row(indent, text) if not self._lead.code else Row(self._lead.indent, f"{self._lead.code} {text}")
 
-    def end_lead(self) -> bool:
-        """Put what leads nothing in a row of its own; return whether there was anything."""
-        if not self._lead.code:
-            return False
-        self._add(self._lead)
-        self._last_code = len(self._rows) - 1
-        self._lead = Row(0, "")
-        return True
+    def end_lead(self) -> None:
+        """Put what leads nothing in a row of its own."""
+        if self._lead.code:
+            self._add(self._lead)
+            self._last_code = len(self._rows) - 1
+            self._lead = Row(0, "")
 
     def open(self, row: Row) -> None:
         """Add the row that begins a block."""
