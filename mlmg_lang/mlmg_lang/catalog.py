@@ -36,5 +36,11 @@ class Catalog(Protocol):
     def can_reach(self, graph: str, source: str, target: str) -> bool:
         """Return whether a walk on `graph` can lead from `source` to `target`."""
 
+    def unlikeness(self, graph: str, one: str, other: str) -> float:
+        """Return how far apart two motions are on `graph`: their Overall Motion Similarity over the usual one.
+
+        Usual is the median of all pairs of different motions of the graph.
+        """
+
     def n_frames(self, motion: str) -> int:
         """Return how many frames a motion's clip has."""

@@ -87,6 +87,8 @@ def _table() -> dict[str, Rule]:
         "MS057": Rule(error, "a definition that says how long, where that cannot be said"),
         "MS058": Rule(error, "a file that cannot be used"),
         "MS059": Rule(error, "files that use each other in a circle"),
+        # the looks
+        "MS061": Rule(warning, "a combination that may look unnatural"),
         # the comments
         "MS070": Rule(warning, "a comment that ignores what is not there"),
         "MS071": Rule(warning, "a comment to the compiler that says nothing it knows"),

@@ -21,6 +21,7 @@ from mlmg_lang.planning.plan import plan
 from mlmg_lang.planning.resolve import resolve
 from mlmg_lang.planning.resolved import ResolvedPlan
 from mlmg_lang.planning.typed import TypedPlan
+from mlmg_lang.planning.unusual import unusual
 from mlmg_lang.source import Source
 from mlmg_lang.suppression import suppress
 
@@ -94,7 +95,7 @@ def _against(analysis: Analysis, catalog: Catalog, start: str | None) -> Analysi
     found = (*analysis.diagnostics, *planned.diagnostics, *resolution.diagnostics)
     if has_errors(found):
         return replace(analysis, plan=planned.plan, diagnostics=found)
-    hints = tuple(left_at_once(resolution, names))
+    hints = (*left_at_once(resolution, names), *unusual(resolution, names, catalog))
     return replace(analysis, plan=planned.plan, resolved=resolution.plan, diagnostics=(*found, *hints))
 
 

@@ -73,6 +73,15 @@ class Library:
         own = self.by_name[graph]
         return bool(own.hops[own.index[source], own.index[target]] != UNREACHABLE)
 
+    def unlikeness(self, graph: str, one: str, other: str) -> float:
+        """Return how far apart two motions are on `graph`: their Overall Motion Similarity over the usual one.
+
+        Usual is the median of all pairs of different motions of the graph; where that is 0, all are 0 apart.
+        """
+        own = self.by_name[graph]
+        usual = own.usual_oms
+        return float(own.oms[own.index[one], own.index[other]]) / usual if usual > 0 else 0.0
+
     def n_frames(self, motion: str) -> int:
         """Return how many frames a motion's clip has."""
         graph = next(graph for graph in self.by_name.values() if motion in graph.index)

@@ -93,6 +93,12 @@ class MotionGraph:
         return {motion: index for index, motion in enumerate(self.motions)}
 
     @cached_property
+    def usual_oms(self) -> float:
+        """Return the median of the overall motion similarities of all pairs of different motions; 0 if there is none."""
+        of_pairs = self.oms[~np.eye(len(self.motions), dtype=bool)]
+        return float(np.median(of_pairs)) if len(of_pairs) else 0.0
+
+    @cached_property
     def edges(self) -> tuple[Transition, ...]:
         """Return the transitions as plain numbers, in their order."""
         return tuple(Transition(*row) for row in self.transitions.tolist())

@@ -25,6 +25,7 @@ class FakeCatalog:
     on : by graph, its motions with their tags; the first graph is the root.
     above : by graph, the one above it.
     cut : (graph, source, target) that no walk leads along.
+    far : (graph, one, other) -> how unlike, where that is not as usual.
     """
 
     on: Mapping[str, Tags]
@@ -32,6 +33,7 @@ class FakeCatalog:
     start: str = "Idle_01"
     frame_rate: float = 30.0
     cut: frozenset[tuple[str, str, str]] = field(default_factory=frozenset)
+    far: Mapping[tuple[str, str, str], float] = field(default_factory=dict)
 
     @property
     def graphs(self) -> tuple[str, ...]:
@@ -48,6 +50,9 @@ class FakeCatalog:
 
     def can_reach(self, graph: str, source: str, target: str) -> bool:
         return (graph, source, target) not in self.cut
+
+    def unlikeness(self, graph: str, one: str, other: str) -> float:
+        return self.far.get((graph, one, other), 1.0)
 
     def n_frames(self, motion: str) -> int:
         return 400
@@ -104,6 +109,7 @@ LIBRARIES: Mapping[str, FakeCatalog | None] = {
     "hands": HANDS,
     "twins": TWINS,
     "cut": CUT,
+    "far": replace(REFERENCE, far={("Upper-Body", "Walk_02", "Talk_02"): 4.0}),
 }
 
 

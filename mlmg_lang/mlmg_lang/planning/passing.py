@@ -12,19 +12,13 @@ from mlmg_lang.diagnostics import Diagnostic, Fix
 from mlmg_lang.planning.flow import State
 from mlmg_lang.planning.names import Names
 from mlmg_lang.planning.resolve import Resolution
-from mlmg_lang.planning.resolved import Choose, Command, Layer, Repeat, Statement
+from mlmg_lang.planning.resolved import Command, Layer, Statement
 from mlmg_lang.source import Span
 
 
 def left_at_once(resolution: Resolution, names: Names) -> Iterator[Diagnostic]:
     """Yield a hint for each command of a script without mistakes that moves something and is certain to be left."""
-    bodies = [resolution.plan.statements]
-    for body in bodies:
-        for statement in body:
-            if isinstance(statement, Repeat):
-                bodies.append(statement.body)
-            elif isinstance(statement, Choose):
-                bodies += [branch.body for branch in statement.branches]
+    for body in resolution.bodies:
         yield from _in_body(body, resolution, names)
 
 

@@ -35,6 +35,23 @@ class Resolution:
     diagnostics: tuple[Diagnostic, ...]
     states: Mapping[Span, flow.State]
 
+    @property
+    def bodies(self) -> Iterator[tuple[resolved.Statement, ...]]:
+        """Yield the script's statements, then those of each `repeat` and of each branch."""
+        bodies = [self.plan.statements]
+        for body in bodies:
+            for statement in body:
+                if isinstance(statement, resolved.Repeat):
+                    bodies.append(statement.body)
+                elif isinstance(statement, resolved.Choose):
+                    bodies += [branch.body for branch in statement.branches]
+            yield body
+
+    @property
+    def commands(self) -> Iterator[resolved.Command]:
+        """Yield all commands of the script."""
+        return (one for body in self.bodies for one in body if isinstance(one, resolved.Command))
+
 
 def resolve(
     plan: typed.TypedPlan, names: Names, catalog: Catalog, source: Source, start: str | None = None
