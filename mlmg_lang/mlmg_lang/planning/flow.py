@@ -190,10 +190,9 @@ class _Mover:
         for graph, layer in self.layers.items():
             self.out[graph] = dict(forbidden.get(graph, {}))
             self.left[graph] = tuple(motion for motion in layer.motions if motion not in self.out[graph])
-        for graph in reversed(self.layers):
-            stopped = self._ask_above(graph)
-            if stopped is not None:
-                return stopped
+        hindered = self._ask_upwards()
+        if hindered is not None:
+            return hindered
         for graph in self.layers:
             hindered = self._enter(graph)
             if hindered is not None:
@@ -203,30 +202,79 @@ class _Mover:
 
     # --- from the lowest to the highest: what does a layer ask of the one above? ---
 
-    def _ask_above(self, graph: str) -> Stopped | None:
-        """Leave out the candidates above from which a layer could not start."""
+    def _ask_upwards(self) -> Narrow | Stopped | None:
+        """Leave out the candidates with which a layer below could not go on, until that leaves out no more."""
+        before: dict[str, tuple[str, ...]] = {}
+        while before != self.left:
+            before = dict(self.left)
+            for graph in reversed(self.layers):
+                hindered = self._ask_above(graph)
+                if hindered is not None:
+                    return hindered
+        return None
+
+    def _ask_above(self, graph: str) -> Narrow | Stopped | None:
+        """Leave out the candidates above with which a layer could not go on."""
         above = self._named_above(graph)
         if above is None:
             return None
         before = self.left[above]
-        own = self.state.parts.get(graph)
-        running = self.state.parts.get(above)
+        dead_ends = {motion: self._dead_ends(graph, above, motion) for motion in before if motion in self._on(graph)}
         for motion in before:
-            sources = {motion}
-            if own is not None and running is not None and motion in running.motions:
-                sources |= own.motions
-            self._test(above, motion, graph, sources)
+            if motion not in dead_ends:
+                self._leave_out(above, motion, "rule 1", f"it is not on `{graph}`")
+            elif dead_ends[motion]:
+                source = "it" if motion in dead_ends[motion] else f"what `{graph}` may play with it"
+                because = f"nothing asked of `{graph}` can be reached from {source}"
+                self._leave_out(above, motion, "unreachable", because)
         if self.left[above]:
             return None
-        by_rule_1 = not any(motion in self._on(graph) for motion in before)
-        return Stopped(graph, self.layers[graph].span, above, before, by_rule_1, None, within=True)
+        for motion, ends in dead_ends.items():
+            if motion not in ends:
+                return self._hindered(graph, graph, ends)
+        return Stopped(graph, self.layers[graph].span, above, before, not dead_ends, None, within=True)
 
-    def _test(self, above: str, motion: str, graph: str, sources: set[str]) -> None:
-        """Leave a candidate out if a layer below could not start from it."""
-        if motion not in self._on(graph):
-            self._leave_out(above, motion, "rule 1", f"it is not on `{graph}`")
-        elif not any(self._leads_on(graph, source) for source in sources):
-            self._leave_out(above, motion, "unreachable", f"nothing asked of `{graph}` can be reached from it")
+    def _dead_ends(self, graph: str, above: str, motion: str) -> frozenset[str]:
+        """Return from where a layer may have to set out, and cannot, if a motion is taken above it.
+
+        If the motion is one of its own candidates, it can always follow. Where anything may be playing, one way out
+        is enough.
+        """
+        if motion in self.left[graph]:
+            return frozenset()
+        own = self.state.parts.get(graph)
+        sources = frozenset((motion,))
+        if own is not None and motion in self._before(above) and self._may_stay(above):
+            may_be_ended = self._may_move(above) or self._runs_between(graph, above)
+            sources = own.motions | sources if may_be_ended else own.motions
+        dead = frozenset(source for source in sources if not self._leads_on(graph, source))
+        return dead if self.state.certain or dead == sources else frozenset()
+
+    # --- if nothing above it changes, what drives a graph when its turn comes? ---
+
+    def _before(self, graph: str) -> frozenset[str]:
+        own, above = self.state.parts.get(graph), self._named_above(graph)
+        if above is None:
+            return self.state.parts[self._running_above(graph)].motions if own is None else own.motions
+        followed = self._before(above) & frozenset(self.left[above])
+        if own is None:
+            return followed
+        return own.motions | followed if self._runs_between(graph, above) else own.motions
+
+    def _runs_between(self, graph: str, above: str) -> bool:
+        """Return whether a part may run between two layers; it is ended, and so is what runs below it."""
+        names = self.names.ancestors(graph)
+        return any(between in self.state.parts for between in names[: names.index(above)])
+
+    def _may_stay(self, graph: str) -> bool:
+        """Return whether a layer, and all above it, may be satisfied as they are."""
+        above = self._named_above(graph)
+        return (above is None or self._may_stay(above)) and not self._before(graph).isdisjoint(self.left[graph])
+
+    def _may_move(self, graph: str) -> bool:
+        """Return whether a layer, or one above it, may change."""
+        above = self._named_above(graph)
+        return (above is not None and self._may_move(above)) or not self._before(graph) <= set(self.left[graph])
 
     # --- from the highest to the lowest: how does each get there? ---
 
@@ -242,7 +290,7 @@ class _Mover:
             driving = self.parts[above].motions
             sources = driving | self._kept(graph, above)
         for motion in self.left[graph]:
-            if motion not in sources and not any(self._reaches(graph, source, motion) for source in sources):
+            if motion not in sources | driving and not any(self._reaches(graph, source, motion) for source in sources):
                 self._leave_out(graph, motion, "unreachable", "it cannot be reached")
         self.parts[graph] = self._arrived(graph, sources, driving)
         return None
@@ -250,18 +298,27 @@ class _Mover:
     def _sources_before(self, graph: str) -> tuple[frozenset[str], frozenset[str]] | Narrow | Stopped:
         """Return what the topmost layer starts from, and what drives the graph above it."""
         above = graph if graph in self.state.parts else self._running_above(graph)
+        motions = self.state.parts[above].motions
+        followed = self.state.parts[self._running_above(graph)].motions if graph != self.names.root else motions
+        can_follow = graph != self.names.root and followed <= set(self.left[graph])
+        good = frozenset(m for m in motions & self._on(graph) if can_follow or self._leads_on(graph, m))
+        hindered = self._hindered(graph, above, motions - good)
+        return hindered or (good, followed)
+
+    def _hindered(self, graph: str, above: str, bad: frozenset[str]) -> Narrow | Stopped | None:
+        """Say of the motions that a layer may have to set out from, and cannot, which earlier commands set them.
+
+        Parameters
+        ----------
+        above : the graph that they are on: its own, if it may run.
+        """
         part = self.state.parts[above]
-        good = frozenset(motion for motion in part.motions & self._on(graph) if self._leads_on(graph, motion))
-        bad = part.motions - good
-        blamed = part.setters(bad)
+        good, blamed = part.motions - bad, part.setters(bad)
         if not good or (None in blamed and self.state.certain):
             at_fault = bad if not good else frozenset(m for m in bad if None in part.origins[m])
             return self._stopped(graph, above, at_fault, part.setters(at_fault))
         without = {setter: frozenset(m for m in bad if setter in part.origins[m]) for setter in filter(None, blamed)}
-        if without:
-            return Narrow(without, graph)
-        driving = self.state.parts[self._running_above(graph)].motions if graph != self.names.root else good
-        return good, driving
+        return Narrow(without, graph) if without else None
 
     def _stopped(self, graph: str, above: str, at_fault: frozenset[str], setters: frozenset[Setter | None]) -> Stopped:
         """Say that the topmost layer could not start from some motions."""
@@ -274,10 +331,8 @@ class _Mover:
 
     def _kept(self, graph: str, above: str) -> frozenset[str]:
         """Return what a part plays already, if the one above may stay as it is."""
-        own, running = self.state.parts.get(graph), self.state.parts.get(above)
-        if own is None or running is None or not running.motions & set(self.left[above]):
-            return frozenset()
-        return own.motions
+        own = self.state.parts.get(graph)
+        return frozenset() if own is None or not self._may_stay(above) else own.motions
 
     def _arrived(self, graph: str, sources: frozenset[str], driving: frozenset[str]) -> Part:
         """Return what may drive a graph when it has arrived: any candidate.
