@@ -1,43 +1,13 @@
-"""The edits that diagnostics offer, held against what they promise."""
+"""What the edits make of a script. (That each mends what it is offered for is tested with the wrong scripts.)"""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from pathlib import Path
+from collections.abc import Callable
 from typing import Any
 
 import pytest
 
-from mlmg_lang.diagnostics import Diagnostic, Severity
-from mlmg_lang.front_end import analyse
-from mlmg_lang.source import Source
-
-SCRIPTS = sorted((Path(__file__).parents[1] / "invalid").glob("*.ms"))
 Fixed = Callable[..., str]
-
-
-def analysed(text: str, libraries: Mapping[str, Any]) -> tuple[Diagnostic, ...]:
-    library = text.split("\n", 1)[0].removeprefix("# library: ")
-    return analyse(Source(text), libraries[library]).diagnostics
-
-
-def counted(diagnostics: tuple[Diagnostic, ...]) -> int:
-    return sum(one.severity is not Severity.HINT for one in diagnostics)
-
-
-@pytest.mark.parametrize("path", SCRIPTS, ids=lambda path: path.stem)
-def test_every_fix_mends_what_it_is_offered_for(path: Path, libraries: Mapping[str, Any]) -> None:
-    text = path.read_bytes().decode("utf-8")
-    before = analysed(text, libraries)
-    for one in before:
-        for fix in one.fixes:
-            mended = text[: fix.span.start] + fix.replacement + text[fix.span.end :]
-            after = analysed(mended, libraries)
-            left = [other for other in after if (other.code, other.message) == (one.code, one.message)]
-            same = [other for other in before if (other.code, other.message) == (one.code, one.message)]
-            assert len(left) < len(same), (one.message, mended)
-            if fix.safe:
-                assert counted(after) <= counted(before), mended
 
 
 @pytest.mark.parametrize(
@@ -56,7 +26,21 @@ def test_every_fix_mends_what_it_is_offered_for(path: Path, libraries: Mapping[s
         ("wait for 10 sec", "wait 10 sec"),
         ("WALK for 10 sec with Upper-Body TALK", "WALK with Upper-Body TALK for 10 sec"),
         ("WALK whit Upper-Body TALK", "WALK with Upper-Body TALK"),
+        ("WALK Upper-Body TALK", "WALK with Upper-Body TALK"),
         ("WALK & TALK", "WALK and TALK"),
+        ("WALK + TALK", "WALK with TALK"),
+        ("WALK for 1 sec -> IDLE for 1 sec", "WALK for 1 sec ; IDLE for 1 sec"),
+        ("WALK for 1 sec // a stroll", "WALK for 1 sec # a stroll"),
+        ("WALK for 1 sec.", "WALK for 1 sec"),
+        ("WALK with with TALK", "WALK with TALK"),
+        ("WALK for10 sec", "WALK for 10 sec"),
+        ("WALK for 1:30 min", "WALK for 90 sec"),
+        ("3 sec WALK", "WALK for 3 sec"),
+        ("3 sec", "wait 3 sec"),
+        ("\u201cWALK\u201d", "WALK"),
+        ("\u201eto\u201c", '"to"'),
+        ("use gestures", 'use "gestures.ms"'),
+        ("let X WALK\nX for 2 sec", "let X = WALK\nX for 2 sec"),
         ("!WALK", "not WALK"),
         ("WALK with (Upper-Body TALK", "WALK with (Upper-Body TALK)"),
         ("WALK)", "WALK"),
@@ -87,6 +71,9 @@ def test_a_script_is_mended_as_its_writer_would(script: str, right: str, fixed: 
         ("walk01 with upper_body talk", "Walk_01 with Upper-Body TALK"),
         ("WLAK with Uper-Body TLAK", "WALK with Upper-Body TALK"),
         ("TALK Upper-Body", "Upper-Body TALK"),
+        ("WALK TALK", "WALK with TALK"),
+        ("Idle_02 with Upper-Body TALK", "IDLE with Upper-Body TALK"),
+        ("Upper-Body WALK", "Upper-Body SWING_HAND"),
         ("WALK with sub talk", "WALK with Sub TALK"),
     ],
 )

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import re
 import unicodedata
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from typing import Final
 
 from mlmg_grammar import is_name, reserved_words
 from mlmg_lang.diagnostics import Diagnostic, Fix
 from mlmg_lang.parsing.build_syntax import bad_escapes, motion_script
 from mlmg_lang.parsing.tokens import Token
-from mlmg_lang.source import Span
+from mlmg_lang.source import Source, Span
 from mlmg_lang.spelling import listed
 
 _ENDS_NAME: Final = re.compile(r"\s*#|\s+(?:with|and|or|for|once)(?!\S)")
@@ -20,6 +20,25 @@ _ENDS_NAME: Final = re.compile(r"\s*#|\s+(?:with|and|or|for|once)(?!\S)")
 
 _CURLY: Final = frozenset("\u201c\u201d\u201e\u201f\u00ab\u00bb\u2018\u2019\u201a")
 """What editors for prose make of quotes."""
+
+
+def join_quoted(tokens: Sequence[Token], source: Source) -> Sequence[Token]:
+    """Return tokens with those between printed quotes in a line as one name, which then is told of as one mistake."""
+    if not any(token.type == "NAME" and token.text[0] in _CURLY for token in tokens):
+        return tokens
+    joined: list[Token] = []
+    opened: int | None = None
+    for token in tokens:
+        joined.append(token)
+        if token.type == "NEWLINE":
+            opened = None
+        elif token.type == "NAME" and opened is None and token.text[0] in _CURLY and token.text[-1] not in _CURLY:
+            opened = len(joined) - 1
+        elif token.type == "NAME" and opened is not None and token.text[-1] in _CURLY:
+            span = Span(joined[opened].span.start, token.span.end)
+            joined[opened:] = [Token("NAME", source.slice(span), span)]
+            opened = None
+    return joined
 
 
 def check_tokens(tokens: Iterable[Token]) -> Iterator[Diagnostic]:
@@ -64,6 +83,8 @@ def _pieces(inside: str) -> Iterator[str]:
 
 
 def _odd_name(token: Token) -> Diagnostic:
+    if _CURLY & set(token.text):
+        return _curly_quotes(token)
     letters = dict.fromkeys(letter for letter in token.text if letter != "-")
     wrong = [_shown(letter) for letter in letters if not f"_{letter}".isidentifier()]
     does = f"hold {listed(wrong)}" if wrong else f"begin with `{_shown(token.text[0])}`"
@@ -72,20 +93,26 @@ def _odd_name(token: Token) -> Diagnostic:
         message = f"a name without quotes cannot {does}: wide letters and signs have no meaning here"
         fix = Fix(token.span, plain, safe=True)
         return Diagnostic("MS003", message, token.span, f"write `{plain}`", fixes=(fix,))
-    if _CURLY & set(token.text):
-        return _curly_quotes(token, f"a name without quotes cannot {does}")
-    fixes = (Fix(token.span, f'"{token.text}"', safe=True),) if token.text.isprintable() else ()
     message = f"a name without quotes cannot {does}"
-    return Diagnostic("MS003", message, token.span, "write the name in double quotes", fixes=fixes)
+    if not token.text.isprintable():
+        return _unseen(token, f"{message}, which cannot be seen")
+    fix = Fix(token.span, f'"{token.text}"', safe=True)
+    return Diagnostic("MS003", message, token.span, "write the name in double quotes", fixes=(fix,))
 
 
-def _curly_quotes(token: Token, message: str) -> Diagnostic:
+def _unseen(token: Token, message: str) -> Diagnostic:
+    seen = "".join(letter for letter in token.text if letter.isprintable())
+    fixes = (Fix(token.span, seen, safe=False),) if is_name(seen) else ()
+    return Diagnostic("MS003", message, token.span, f"write `{seen}`" if fixes else "take it out", fixes=fixes)
+
+
+def _curly_quotes(token: Token) -> Diagnostic:
+    message = 'quotes are written `"` in Motion Script, not as they are printed'
     inside = token.text.strip("".join(_CURLY))
-    advice = 'quotes are written `"`, not as they are printed'
-    if token.text[0] not in _CURLY or token.text[-1] not in _CURLY or _CURLY & set(inside):
-        return Diagnostic("MS003", message, token.span, advice)
+    if token.text[0] not in _CURLY or token.text[-1] not in _CURLY or _CURLY & set(inside) or not inside:
+        return Diagnostic("MS003", message, token.span, 'write `"` in their place')
     right = script_name(inside)
-    return Diagnostic("MS003", message, token.span, f"{advice}: `{right}`", fixes=(Fix(token.span, right, safe=True),))
+    return Diagnostic("MS003", message, token.span, f"write `{right}`", fixes=(Fix(token.span, right, safe=True),))
 
 
 def _shown(letter: str) -> str:

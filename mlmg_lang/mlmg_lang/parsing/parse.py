@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from mlmg_lang.diagnostics import Diagnostic
 from mlmg_lang.parsing import syntax
 from mlmg_lang.parsing.layout import MAX_DEPTH, Block, Line, lay_out
-from mlmg_lang.parsing.lexical import check_tokens
+from mlmg_lang.parsing.lexical import check_tokens, join_quoted
 from mlmg_lang.parsing.line_parser import Stuck, read
 from mlmg_lang.parsing.mistakes import Mistake, explain
 from mlmg_lang.parsing.tokens import Token
@@ -35,6 +35,7 @@ def parse(source: Source, tokens: Sequence[Token], base: int = 0) -> Parsed:
     ----------
     base : where the file begins whose tokens these are: the script itself, or one that it uses.
     """
+    tokens = join_quoted(tokens, source)
     layout = lay_out(tokens)
     reader = _Reader(source)
     reader.diagnostics += [*check_tokens(tokens), *layout.diagnostics][:MAX_MISTAKES]

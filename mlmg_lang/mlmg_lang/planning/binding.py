@@ -12,7 +12,7 @@ from mlmg_lang.parsing.lexical import script_name
 from mlmg_lang.parsing.structure import SUB, group_of, is_sub
 from mlmg_lang.planning.names import Names
 from mlmg_lang.source import Span
-from mlmg_lang.spelling import listed, nearest, normal
+from mlmg_lang.spelling import is_slip_of, listed, nearest, normal
 
 _MAX_LISTED = 8
 """The most names that a message lists when none is like the one written."""
@@ -143,6 +143,8 @@ def _qualified(node: syntax.Qualified, scope: Scope) -> Iterator[Unbound]:
         yield Unbound(_side_by_side(node, names))
     elif wrong and inner and is_shouted(name):
         yield from inner
+    elif wrong and inner and not name.quoted and is_slip_of(name.text, "once") and names.places(graph.text):
+        yield Unbound(_misspelt_once(name))
     else:
         yield from (*wrong, *inner)
 
@@ -227,6 +229,12 @@ def _swapped(node: syntax.Qualified, names: Names) -> Diagnostic:
     return Diagnostic("MS025", message, node.span, f"write `{right}`", fixes=(Fix(node.span, right, safe=True),))
 
 
+def _misspelt_once(name: syntax.Name) -> Diagnostic:
+    message = f"`{name.text}` is not a word of the language"
+    fix = Fix(name.span, "once", safe=False)
+    return Diagnostic("MS019", message, name.span, "did you mean `once`?", fixes=(fix,))
+
+
 def _side_by_side(node: syntax.Qualified, names: Names) -> Diagnostic:
     first, second = node.graph, node.motion.name
     message = f"`{first.text}` is a {_kind(first, names)}, not a graph: a word is missing before `{second.text}`"
@@ -239,7 +247,7 @@ def _side_by_side(node: syntax.Qualified, names: Names) -> Diagnostic:
 def _graph_alone(name: syntax.Name, names: Names) -> Diagnostic:
     graph = names.graph(name.text) or name.text
     message = f"`{graph}` is a graph, not a motion"
-    known = names.spellings_on(graph)[:1] if graph in names.graphs else ()
+    known = names.spellings_on(graph)[:1] if graph in names.graphs else names.spellings()[:1]
     advice = f"write what it is to do, as in `{script_name(graph)} {script_name(known[0])}`" if known else None
     return Diagnostic("MS024", message, name.span, advice)
 

@@ -46,6 +46,8 @@ _RULES: Final[tuple[Callable[[Stuck], Mistake | None], ...]] = (
     heads.graph_missing,
     heads.path_missing,
     heads.equals_missing,
+    heads.meaning_missing,
+    heads.comma_missing,
     motions.parenthesis,
     words.reserved_as_name,
     heads.name_missing,

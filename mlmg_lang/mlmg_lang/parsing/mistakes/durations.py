@@ -217,5 +217,11 @@ def for_and_once(stuck: Stuck) -> Mistake | None:
         return None
     if not any(token.type in ("FOR", "ONCE") for token in stuck.tokens[: stuck.at]):
         return None
+    word = stuck.token(-1)
+    if word is not None and word.type == "FOR" and stuck.type(0) == "ONCE":
+        fix = Fix(Span(word.span.start, stuck.span.start), "", safe=True)
+        meant = replaced(stuck, stuck.at - 1)
+        return mistake("MS010", "`once` says how long by itself, without `for`", word.span, "write `once` alone", fix,
+                       meant=meant)  # fmt: skip
     message = "a command takes one `for` or one `once`, not two"
     return mistake("MS010", message, stuck.span, "take one of them out", meant=stuck.tokens[: stuck.at])

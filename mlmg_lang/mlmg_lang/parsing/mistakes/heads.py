@@ -46,8 +46,7 @@ def equals_missing(stuck: Stuck) -> Mistake | None:
     if stuck.tokens[0].type != "LET" or "EQUALS" not in stuck.accepts or "COMMA" in stuck.accepts:
         return None
     if token is None:
-        message = "this definition does not say what the name stands for"
-        return mistake("MS010", message, stuck.span, f"write it behind `=`, as in `{_text(stuck)} = WALK`")
+        return _no_meaning(stuck, f"write it behind `=`, as in `{_text(stuck)} = WALK`")
     if token.type not in NAMES | {"LEFT", "NOT"}:
         return None
     place = Span(token.span.start, token.span.start)
@@ -55,6 +54,29 @@ def equals_missing(stuck: Stuck) -> Mistake | None:
     advice = f"write `{_text(stuck)} = {token.text}{' ...' if stuck.left > 1 else ''}`"
     message = "`=` is missing between the name and what it stands for"
     return mistake("MS010", message, token.span, advice, Fix(place, "= ", safe=False), meant=meant)
+
+
+def meaning_missing(stuck: Stuck) -> Mistake | None:
+    """`let STROLL =`."""
+    if stuck.left or stuck.tokens[0].type != "LET" or stuck.type(-1) != "EQUALS":
+        return None
+    return _no_meaning(stuck, f"write it behind `=`, as in `{_text(stuck)} WALK`")
+
+
+def _no_meaning(stuck: Stuck, advice: str) -> Mistake:
+    return mistake("MS010", "this definition does not say what the name stands for", stuck.span, advice)
+
+
+def comma_missing(stuck: Stuck) -> Mistake | None:
+    """`let GREET(x t) = x for t`."""
+    token = stuck.token(0)
+    if token is None or token.type not in NAMES or not {"COMMA", "EQUALS"} <= stuck.accepts:
+        return None
+    place = Span(stuck.tokens[stuck.at - 1].span.end, stuck.tokens[stuck.at - 1].span.end)
+    meant = replaced(stuck, stuck.at, Token("COMMA", ",", place), n=0)
+    message = f"`,` is missing before `{token.text}`"
+    return mistake("MS010", message, token.span, "parameters are separated by `,`", Fix(place, ",", safe=True),
+                   meant=meant)  # fmt: skip
 
 
 def not_behind_name(stuck: Stuck) -> Mistake | None:

@@ -114,7 +114,10 @@ def after_the_end(stuck: Stuck) -> Mistake | None:
     if token is None or stuck.accepts != {"$END"}:
         return None
     message = f"`{token.text}` cannot follow here: the statement ends before it"
-    return mistake("MS010", message, token.span, "what is played later stands on a line of its own, or after `;`")
+    advice = "what is played later stands on a line of its own, or after `;`"
+    if stuck.tokens[0].type == "USE":
+        advice = "take it out: what the file defines is used by its own name"
+    return mistake("MS010", message, token.span, advice)
 
 
 def lone_number(stuck: Stuck) -> Mistake | None:

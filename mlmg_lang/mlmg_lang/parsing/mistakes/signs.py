@@ -33,7 +33,10 @@ _ELSEWHERE: Final[Mapping[str, tuple[str, str]]] = MappingProxyType(
     {
         "BAR": ("`|` stands between the branches of `choose { }` alone", "for one or the other, write `or`"),
         "EQUALS": ("`=` stands in a definition alone", "write `let NAME = ...`"),
-        "COMMA": ("`,` stands between arguments alone", "join motions by `with`, `and` or `or`"),
+        "COMMA": (
+            "`,` stands between arguments alone",
+            "join motions by `with`, `and` or `or`, and put `|` between branches",
+        ),
         "COLON": (
             "`:` stands after the weight of a branch alone",
             "weights are whole numbers in `choose { }`",
