@@ -17,6 +17,7 @@ SUBCOMMANDS = {
     "check": "check scripts without playing them",
     "rule": "tell what a diagnostic means",
     "fmt": "rewrite scripts in the one canonical form",
+    "explain": "tell what a script will do and why, as a tree, JSON or a flowchart",
     "view": "look at a motion: a player in the browser, a picture, a GIF",
 }
 

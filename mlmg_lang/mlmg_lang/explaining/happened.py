@@ -1,0 +1,107 @@
+"""What was played -> for each statement, how it went: what was taken, when it arrived, by which transitions."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator, Mapping
+from dataclasses import dataclass, field
+
+from mlmg_lang.explaining.explanation import Event, Execution, Played, Taken
+from mlmg_lang.perform import Executed, Rehearsal
+from mlmg_lang.planning.resolved import Command, End, Once
+from mlmg_lang.source import Span
+from mlmg_runtime.library import Library
+from mlmg_runtime.playing.timeline import Blend, Segment
+
+
+def executions_of(rehearsal: Rehearsal, library: Library, start: str) -> Mapping[Span, tuple[Execution, ...]]:
+    """Return, by the spans of statements, how they went each time that they were executed.
+
+    Parameters
+    ----------
+    start : the motion that the character started in.
+    """
+    teller = _Teller(library, rehearsal.timeline.tracks, {library.root.name: start})
+    found: dict[Span, list[Execution]] = {}
+    for step in rehearsal.steps:
+        found.setdefault(step.statement.span, []).append(teller.execution(step))
+    return {span: tuple(executions) for span, executions in found.items()}
+
+
+def played_of(rehearsal: Rehearsal, executions: Mapping[Span, tuple[Execution, ...]], rate: float, seed: int) -> Played:
+    """Return what came of playing a script, in all."""
+    every = [one for executed in executions.values() for one in executed]
+    under_way = sum(one.arrived_s for one in every)
+    cost = sum(one.cost for one in every)
+    return Played(seed, round(rehearsal.timeline.n_frames / rate, 3), round(under_way, 3), round(cost, 3))
+
+
+@dataclass(slots=True)
+class _Teller:
+    """Goes through what was executed; `homes` are the motions that graphs were last led to, while they run."""
+
+    library: Library
+    tracks: Mapping[str, tuple[Segment, ...]]
+    homes: dict[str, str]
+    _shown: dict[str, int] = field(default_factory=dict)
+
+    def execution(self, step: Executed) -> Execution:
+        """Return how a statement went."""
+        moved = self._moved(step)
+        events = sorted(
+            (event for graph in self.library.graphs if graph in moved for event in self._events(graph, step)),
+            key=lambda event: event.begin_s,
+        )
+        self._remember(step, moved)
+        return Execution(
+            self._seconds(step.begin),
+            self._seconds(step.arrive - step.begin),
+            self._seconds(step.end - step.arrive),
+            round(sum(event.cost or 0.0 for event in events), 3),
+            tuple(Taken(graph, motion) for graph, motion in step.motions.items()),
+            tuple(events),
+        )
+
+    def _moved(self, step: Executed) -> set[str]:
+        """Return the graphs that a statement led elsewhere or ended; others only stayed in their motions meanwhile."""
+        match step.statement:
+            case Command(layers=layers, duration=duration):
+                named = [layer.graph for layer in layers]
+                afresh = named[:1] if isinstance(duration, Once) else []
+                moved = {graph for graph in named if graph in afresh or self.homes.get(graph) != step.motions[graph]}
+                ended = {graph for graph in self.library.graphs if graph not in named and self._is_below(graph, named)}
+                below = {graph for graph in named if self._is_below(graph, moved)}
+                return moved | ended | below
+            case End(graph=graph):
+                return {graph, *(one for one in self.library.graphs if self._is_below(one, {graph}))}
+        return set()
+
+    def _remember(self, step: Executed, moved: set[str]) -> None:
+        for graph in moved:
+            self.homes.pop(graph, None)
+        self.homes.update(step.motions)
+
+    def _is_below(self, graph: str, others: Collection[str]) -> bool:
+        return any(above in others for above in self.library.ancestors(graph))
+
+    def _events(self, graph: str, step: Executed) -> Iterator[Event]:
+        """Yield the blends of a graph that began while a statement was under way."""
+        segments = self.tracks.get(graph, ())
+        # Statements come in the order of time, so that what has been told need not be looked at again.
+        at = self._shown.get(graph, 0)
+        while at < len(segments) and segments[at].begin < step.arrive:
+            segment = segments[at]
+            at += 1
+            if isinstance(segment, Blend) and segment.begin >= step.begin:
+                yield self._event(graph, segment)
+        self._shown[graph] = at
+
+    def _event(self, graph: str, blend: Blend) -> Event:
+        motions = self.library.by_name[graph].motions
+        source = (motions[blend.source.motion], blend.source.frame)
+        target = None if blend.target is None else (motions[blend.target.motion], blend.target.frame)
+        what = "transition" if blend.transition is not None else "blend" if target is not None else "return"
+        cost = None if blend.transition is None else round(blend.transition.cost, 3)
+        return Event(graph, what, self._seconds(blend.begin), source, target, cost)
+
+    def _seconds(self, n_frames: int) -> float:
+        return round(n_frames / self.library.frame_rate, 3)
