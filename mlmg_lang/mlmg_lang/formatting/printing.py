@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from itertools import islice
 from typing import Final
 
 from mlmg_lang.formatting.page import Page
@@ -59,12 +58,10 @@ class Printer:
 
     def _keep_block(self, block: Block, indent: int) -> None:
         """Keep a block; one that is nowhere closed reaches to the end, comments included."""
-        depth, end = 0, block.span.end
-        for token in islice(self._tokens, self._at, None):
-            if token.span.start >= end:
-                break
-            depth += (token.type == "OPEN") - (token.type == "CLOSE")
-        if depth > 0:
+        first, end = self._at, block.span.end
+        self._skip(end)
+        inside = [token.type for token in self._tokens[first : self._at]]
+        if inside.count("OPEN") > inside.count("CLOSE"):
             end = next(token.span.end for token in reversed(self._tokens) if token.type != "NEWLINE")
         self._keep(Span(block.span.start, end), indent)
 
