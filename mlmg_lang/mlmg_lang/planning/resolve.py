@@ -162,8 +162,15 @@ class _Resolver:
             number = self._step(number)
 
     def _before(self, number: int) -> flow.State:
-        """Return what may be playing before a step, as far as what comes before it has been reached."""
-        known = (flow.begin(self.names, self.start) if n == START else self.left[n] for n in self.steps[number].before)
+        """Return what may be playing before a step, as far as what comes before it has been reached.
+
+        Where a loop begins it only ever becomes more: a command that has to be ready for more can do less, and so
+        could bring about less, again and again without end.
+        """
+        step = self.steps[number]
+        known = [flow.begin(self.names, self.start) if n == START else self.left[n] for n in step.before]
+        if step.statement is None:
+            known.append(self.entered[number])
         return flow.joined([state for state in known if state is not None], self.names)
 
     def _step(self, number: int) -> int:
