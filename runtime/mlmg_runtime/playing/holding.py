@@ -87,4 +87,4 @@ def _most_alike(library: Library, graph: MotionGraph, motion: str, from_frame: i
     late, early = np.ogrid[: distances.shape[0], : distances.shape[1]]
     distances = np.where((late >= from_frame) & (early <= late - graph.window), distances, np.inf)
     leave, enter = np.unravel_index(int(distances.argmin()), distances.shape)
-    return (int(leave), int(enter)) if np.isfinite(distances[leave, enter]) else None
+    return int(leave), int(enter)

@@ -1,4 +1,5 @@
 from collections.abc import Iterator
+from dataclasses import replace
 from itertools import pairwise, takewhile
 
 import numpy as np
@@ -10,7 +11,7 @@ from mlmg_runtime.motion_graph import MotionGraph, Position
 from mlmg_runtime.playing.holding import latest_loop, stay
 from mlmg_runtime.playing.timeline import Blend, Clip, Segment
 from mlmg_runtime.point_cloud import point_cloud, window_distances
-from mlmg_runtime.skeleton import world_positions
+from mlmg_runtime.skeleton import Poses, world_positions
 
 
 def played(segments: Iterator[Segment], until: int) -> list[Segment]:
@@ -28,7 +29,7 @@ def departures(segments: list[Segment]) -> list[tuple[int, int]]:
 
 
 def test_the_latest_loop_is_the_backward_transition_that_leaves_latest_the_smoothest_of_several(motion_graph) -> None:
-    marks = [(0, 20, 0, 9, 0.1), (0, 30, 0, 12, 0.7), (0, 30, 0, 8, 0.3), (0, 31, 0, 38), (0, 33, 1, 9)]
+    marks = [(0, 20, 0, 9, 0.1), (0, 30, 0, 12, 0.7), (0, 30, 0, 8, 0.3), (0, 31, 0, 38), (0, 32, 0, 32), (0, 33, 1, 9)]
     graph = motion_graph([40, 20], 3, marks)
     loop = latest_loop(graph, 0)
     assert (loop.src_frame, loop.dst_frame) == (30, 8)
@@ -45,6 +46,19 @@ def test_a_motion_is_held_by_its_latest_loop(motion_graph) -> None:
         Blend(148, 151, Position(0, 30), Position(0, 12), latest_loop(graph, 0)),
     ]
     assert set(departures(segments)) == {(30, 12)}
+
+
+@pytest.mark.parametrize(("start", "departs"), [((0, 29), (30, 12)), ((0, 30), (30, 12)), ((0, 31), (35, 9))])
+def test_the_loop_is_taken_up_to_the_very_frame_from_which_it_leaves(motion_graph, start, departs) -> None:
+    graph = motion_graph([40, 20], 3, [(0, 30, 0, 12), (0, 30, 0, 36, 0.1), (0, 35, 1, 9), (1, 12, 0, 5)])
+    segments = played(stay(None, graph, 0, Position(*start), 0, {0, 1}), 20)
+    assert departures(segments)[0] == departs
+
+
+def test_a_way_round_that_has_begun_is_gone_to_its_end(motion_graph) -> None:
+    graph = motion_graph([40, 20], 3, [(0, 30, 0, 12), (1, 12, 0, 5)])
+    segments = played(stay(None, graph, 0, Position(1, 4), 0, {0, 1}), 60)
+    assert departures(segments)[:2] == [(12, 5), (30, 12)]
 
 
 def test_past_its_loops_a_motion_is_held_by_the_shortest_way_round(motion_graph) -> None:
@@ -88,6 +102,7 @@ def test_every_motion_of_a_library_can_be_held_from_wherever_it_is_entered(
 def cornered(library: Library) -> tuple[MotionGraph, int, set[int]]:
     """Return a graph, a motion without self-transitions, and allowed motions through which nothing leads back."""
     graph = library.by_name["Upper-Body"]
+    graph = replace(graph, weights=0.01 ** np.arange(len(graph.joints)))
     return graph, graph.index["Reach"], {graph.index["Reach"], graph.index["Stand"]}
 
 
@@ -111,10 +126,33 @@ def test_where_nothing_leads_back_a_blend_is_made_between_the_two_most_alike_win
             position = segment.after
 
 
-def test_a_motion_that_cannot_go_on_is_told_by_name(small_library: Library) -> None:
+def shortened(library: Library, n_frames: int) -> Library:
+    """Return the library with Reach cut to a few frames."""
+    poses = library.poses("Reach")
+    return replace(library, _poses={"Reach": Poses(poses.rotations[:n_frames], poses.positions[:n_frames])})
+
+
+@pytest.mark.parametrize("frame", [0, 5, 8])
+def test_a_clip_of_two_windows_is_led_back_from_the_second_to_the_first(small_library: Library, frame: int) -> None:
     graph, home, allowed = cornered(small_library)
-    with pytest.raises(PlayError, match=r"^Reach cannot go on after frame 88 on Upper-Body: .* longer clip$"):
-        next(stay(small_library, graph, home, Position(home, 88), 0, allowed))
+    assert graph.window == 8
+    *_, blend = played(stay(shortened(small_library, 16), graph, home, Position(home, frame), 0, allowed), 9 - frame)
+    assert (blend.begin, blend.source, blend.target) == (8 - frame, Position(home, 8), Position(home, 7))
+
+
+# Reach has 90 frames, so that its last window of 8 begins at 82.
+@pytest.mark.parametrize(("n_frames", "frame"), [(90, 83), (90, 88), (16, 9), (15, 0), (8, 0)])
+def test_a_motion_that_cannot_go_on_is_told_by_name(small_library: Library, n_frames: int, frame: int) -> None:
+    graph, home, allowed = cornered(small_library)
+    with pytest.raises(PlayError, match=rf"^Reach cannot go on after frame {frame} on Upper-Body: .* longer clip$"):
+        next(stay(shortened(small_library, n_frames), graph, home, Position(home, frame), 0, allowed))
+
+
+def test_a_motion_goes_on_from_its_last_window(small_library: Library) -> None:
+    graph, home, allowed = cornered(small_library)
+    blend = next(stay(small_library, graph, home, Position(home, 82), 0, allowed))
+    assert isinstance(blend, Blend)
+    assert blend.source == Position(home, 82)
 
 
 def test_a_motion_from_which_nothing_leads_back_is_told_by_name(small_library: Library) -> None:

@@ -55,3 +55,9 @@ def test_clips_that_go_on_where_the_last_one_stopped_become_one() -> None:
 def test_segments_that_do_not_go_on_in_the_same_way_stay_apart(after: Clip | Blend) -> None:
     first = Clip(0, 5, Position(0, 3), 5)
     assert appended((first,), after) == (first, after)
+
+
+@pytest.mark.parametrize("after", [Clip(5, 10, Position(0, 9), 5), Clip(5, 10, Position(0, 9), 6)])
+def test_a_clip_that_is_bent_stays_apart(after: Clip) -> None:
+    bent = Clip(0, 5, Position(0, 3), 6)
+    assert appended((bent,), after) == (bent, after)
