@@ -184,6 +184,14 @@ class MotionTravel:
     def _places(self, driver: str, playing: Playing) -> _Places:
         """Return where a graph that plays a motion may be."""
         own = self.library.by_name[driver]
+        then = self._then(own, playing)
+        if then is None:
+            return self._held(own, playing.motion)
+        n_frames = round(playing.held_s * self.library.frame_rate)
+        return then if n_frames == 0 else self._later(own, playing.motion, then, n_frames)
+
+    def _then(self, own: MotionGraph, playing: Playing) -> _Places | None:
+        """Return where a graph was at the moment that is known of it; None if that says nothing."""
         match playing.moment:
             case Moment.FIRST:
                 return _at(0)
@@ -193,10 +201,27 @@ class MotionTravel:
                 exits = own.first_exit[own.index[playing.motion]]
                 return _at(exits[-1] if exits else 0)
             case Moment.ARRIVED if playing.source in own.index:
-                arrived = self._arrivals(own, playing)
-                return self._held(own, playing.motion) if arrived is None else arrived
+                return self._arrivals(own, playing)
             case _:
-                return self._held(own, playing.motion)
+                return None
+
+    def _later(self, own: MotionGraph, motion: str, then: _Places, n_frames: int) -> _Places:
+        """Return where a graph may be that has stayed in a motion for some frames, looping as late as it can.
+
+        Parameters
+        ----------
+        then : where it was before; without leads.
+        """
+        loop = latest_loop(own, own.index[motion])
+        if loop is None or (then.frames > loop.src_frame).any():
+            return self._held(own, motion)
+        again, period = loop.dst_frame + 1, loop.src_frame - loop.dst_frame - 1 + own.window
+        ahead = n_frames - (loop.src_frame - then.frames)
+        # Up to the loop; beyond it, first the blend, then the clip from where that leads.
+        into = np.where(ahead > 0, (ahead - 1) % period + 1, ahead)
+        blending = (into > 0) & (into < own.window)
+        frames = np.where(ahead <= 0, then.frames + n_frames, again + np.maximum(into - own.window, 0)).astype(int)
+        return _Places(frames, np.where(blending, own.window - into, 0.0), then.shares)
 
     def _held(self, own: MotionGraph, motion: str) -> _Places:
         """Return where a graph may be that has played a motion for long: in its loop, or in the blend back."""

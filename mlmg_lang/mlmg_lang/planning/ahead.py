@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 
 from mlmg_lang.planning.course import Course, World, bring, end_part
 from mlmg_lang.planning.estimate import Travel
-from mlmg_lang.planning.forecast import afterwards, at_start
+from mlmg_lang.planning.forecast import afterwards, at_start, lasting
 from mlmg_lang.planning.names import Names
 from mlmg_lang.planning.resolved import Choose, Command, End, Repeat, ResolvedPlan, Statement, Wait
 
@@ -49,8 +49,10 @@ def plan_ahead(plan: ResolvedPlan, names: Names, travel: Travel) -> Ahead:
     if any(isinstance(one, Repeat | Choose) for one in plan.statements):
         return Ahead(plan, False, "the script repeats or chooses, and only a straight one is planned ahead", 0.0)
     ways: dict[World, _Way] = {at_start(plan, names): _Way(0.0, None)}
+    counted = names.root
     for statement in plan.statements:
-        ways = _after(statement, ways, names, travel)
+        ways = _after(statement, counted, ways, names, travel)
+        counted = statement.layers[0].graph if isinstance(statement, Command) else counted
         if not ways:
             return Ahead(plan, False, "no choice of candidates is sure to be possible", 0.0)
     best = min(ways.values(), key=lambda way: way.price)
@@ -58,28 +60,37 @@ def plan_ahead(plan: ResolvedPlan, names: Names, travel: Travel) -> Ahead:
     return Ahead(replace(plan, statements=_narrowed(plan.statements, taken, names)), True, "", best.price)
 
 
-def _after(statement: Statement, ways: dict[World, _Way], names: Names, travel: Travel) -> dict[World, _Way]:
-    """Return the cheapest ways to what may be playing after a statement."""
+def _after(
+    statement: Statement, counted: str, ways: dict[World, _Way], names: Names, travel: Travel
+) -> dict[World, _Way]:
+    """Return the cheapest ways to what may be playing after a statement.
+
+    Parameters
+    ----------
+    counted : the graph whose cycles a `wait` counts.
+    """
     onward: dict[World, _Way] = {}
     for world, way in ways.items():
-        for choice, course in _courses(statement, world, names, travel):
+        for choice, course in _courses(statement, counted, world, names, travel):
             price = way.price + course.takes.mean + course.cost
             if course.world not in onward or price < onward[course.world].price:
                 onward[course.world] = _Way(price, way.taken if choice is None else (choice, way))
     return onward
 
 
-def _courses(statement: Statement, world: World, names: Names, travel: Travel) -> Iterator[tuple[str | None, Course]]:
+def _courses(
+    statement: Statement, counted: str, world: World, names: Names, travel: Travel
+) -> Iterator[tuple[str | None, Course]]:
     """Yield how a statement goes with each candidate of the root graph."""
     match statement:
         case Command():
             for choice, narrowed in narrowings(statement, names):
                 for course in bring(world, narrowed, names, travel):
-                    yield choice, replace(course, world=afterwards(course.world, narrowed, names))
+                    yield choice, replace(course, world=afterwards(course.world, narrowed, names, travel))
         case End(graph):
             yield None, end_part(world, graph, names, travel)
-        case Wait():
-            yield None, Course(1.0, world.held())
+        case Wait(duration):
+            yield None, Course(1.0, world.held(lasting(world, duration, counted, names, travel)))
 
 
 def narrowings(command: Command, names: Names) -> Iterator[tuple[str | None, Command]]:

@@ -26,9 +26,9 @@ class World:
         """Return what a graph plays on its own, if it does."""
         return next((playing for name, playing in self.running if name == graph), None)
 
-    def held(self) -> World:
+    def held(self, time: Estimate) -> World:
         """Return the world when some time has passed."""
-        return World(tuple((graph, Playing(playing.motion)) for graph, playing in self.running))
+        return World(tuple((graph, playing.held(time)) for graph, playing in self.running))
 
 
 class Kind(StrEnum):
@@ -145,7 +145,7 @@ class _Mover:
         """Let graphs go their ways, each with its chance."""
         legs = [leg for _, leg in chosen]
         arrived = {leg.graph: self._arrival(leg) for leg in legs}
-        waiting = course.world.held() if any(leg.takes.most > 0 for leg in legs) else course.world
+        waiting = course.world.held(together(leg.takes for leg in legs))
         everything = {**dict(waiting.running), **arrived}
         world = World(tuple((graph, everything[graph]) for graph in self.names.graphs if graph in everything))
         course = replace(course, chance=course.chance * prod(chance for chance, _ in chosen))
@@ -159,9 +159,12 @@ class _Mover:
     def _passed(self, course: Course, legs: Sequence[Leg], world: World) -> Course:
         """Return a course after graphs have done something at the same time, and all others have waited for them."""
         takes, cost = together(leg.takes for leg in legs), sum(leg.cost for leg in legs)
-        world = world.held() if takes.most > 0 else world
         return replace(
-            course, world=world, takes=course.takes + takes, cost=course.cost + cost, legs=(*course.legs, *legs)
+            course,
+            world=world.held(takes),
+            takes=course.takes + takes,
+            cost=course.cost + cost,
+            legs=(*course.legs, *legs),
         )
 
     # --- one graph ---

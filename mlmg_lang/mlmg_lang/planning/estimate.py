@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 from typing import Protocol
 
@@ -53,10 +53,10 @@ class Moment(StrEnum):
     """What is known of where in its motion a graph is."""
 
     FIRST = "at its first frame"
-    ARRIVED = "just arrived"
-    BEGUN = "just begun"
-    HELD = "anywhere"
+    ARRIVED = "arrived"
+    BEGUN = "where it begins"
     PASSED = "at its last exit"
+    HELD = "anywhere"
 
 
 @dataclass(frozen=True, slots=True, order=True)
@@ -65,12 +65,20 @@ class Playing:
 
     Attributes
     ----------
-    source : if it has just arrived, the motion that it came from.
+    source : if it has arrived, the motion that it came from.
+    held_s : seconds since that moment, in which it has stayed in the motion.
     """
 
     motion: str
     moment: Moment = Moment.HELD
     source: str = ""
+    held_s: float = 0.0
+
+    def held(self, time: Estimate) -> Playing:
+        """Return what is known after some time; where that is not sure, it may be anywhere."""
+        if self.moment is Moment.HELD or time.least < time.most:
+            return Playing(self.motion)
+        return replace(self, held_s=self.held_s + time.mean)
 
 
 @dataclass(frozen=True, slots=True)

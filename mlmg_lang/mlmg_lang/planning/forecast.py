@@ -17,6 +17,7 @@ from mlmg_lang.planning.resolved import (
     Choose,
     Command,
     Cycles,
+    Duration,
     End,
     Once,
     Repeat,
@@ -116,13 +117,29 @@ def merged(worlds: Iterable[tuple[World, float]]) -> Outlook:
     return {world: chance / total for world, chance in kept if chance > 0}
 
 
-def afterwards(world: World, command: Command, names: Names) -> World:
+def lasting(world: World, duration: Duration | None, counted: str, names: Names, travel: Travel) -> Estimate:
+    """Return how long a duration is; cycles and passes are those of what drives the graph `counted`."""
+    drives, playing = driver(world, counted, names)
+    match duration:
+        case None:
+            return NO_TIME
+        case Seconds(number):
+            return exactly(number)
+        case Cycles(number):
+            return travel.cycle(playing.motion).times(number)
+        case Once():
+            return travel.one_pass(drives, playing.motion)
+
+
+def afterwards(world: World, command: Command, names: Names, travel: Travel) -> World:
     """Return the world when a command that has arrived in it has lasted as long as it says."""
-    if command.duration is None:
-        return world
-    drives, playing = driver(world, command.layers[0].graph, names)
-    passed = {drives: Playing(playing.motion, Moment.PASSED)} if isinstance(command.duration, Once) else {}
-    return World(tuple({**dict(world.held().running), **passed}.items()))
+    top = command.layers[0].graph
+    lasts = lasting(world, command.duration, top, names, travel)
+    passed: dict[str, Playing] = {}
+    if isinstance(command.duration, Once):
+        drives, playing = driver(world, top, names)
+        passed = {drives: Playing(playing.motion, Moment.PASSED)}
+    return World(tuple({**dict(world.held(lasts).running), **passed}.items()))
 
 
 def _loops(statements: Iterable[Statement]) -> bool:
@@ -167,9 +184,10 @@ class _Follower:
             case Command():
                 return self._command(statement, outlook, is_last)
             case Wait(duration, span):
-                lasts = mixed((chance, self._amount(world, duration)) for world, chance in outlook.items())
+                times = {world: self._lasting(world, duration) for world in outlook}
+                lasts = mixed((chance, times[world]) for world, chance in outlook.items())
                 self.outcomes[span] = Outcome(outlook, (), NO_TIME, 0.0, lasts)
-                return Passage(merged((world.held(), chance) for world, chance in outlook.items()), lasts)
+                return Passage(merged((world.held(times[world]), chance) for world, chance in outlook.items()), lasts)
             case End(graph, span):
                 ended = [(chance, end_part(world, graph, self.names, self.travel)) for world, chance in outlook.items()]
                 outcome = _outcome(outlook, [replace(course, chance=chance) for chance, course in ended])
@@ -210,32 +228,23 @@ class _Follower:
         ]
         outcome = _outcome(outlook, courses)
         plays_out = is_last and command.duration is None
-        lasts = mixed((course.chance, self._lasts(course.world, command, plays_out)) for course in outcome.courses)
+        time = self._to_last_frame if plays_out else lambda world: self._lasting(world, command.duration)
+        lasts = mixed((course.chance, time(course.world)) for course in outcome.courses)
         self.outcomes[command.span] = replace(outcome, lasts=lasts)
-        after = (
-            merged((afterwards(course.world, command, self.names), course.chance) for course in outcome.courses)
-            or outlook
+        after = merged(
+            (afterwards(course.world, command, self.names, self.travel), course.chance) for course in outcome.courses
         )
         takes, rest = (outcome.arrives, lasts) if plays_out else (outcome.arrives + lasts, NO_TIME)
-        return Passage(after, takes, outcome.arrives.mean, outcome.cost, rest)
+        return Passage(after or outlook, takes, outcome.arrives.mean, outcome.cost, rest)
 
     # --- how long ---
 
-    def _lasts(self, world: World, command: Command, plays_out: bool) -> Estimate:
-        drives, playing = driver(world, self.counted, self.names)
-        match command.duration:
-            case None:
-                return self.travel.to_last_frame(drives, playing) if plays_out else NO_TIME
-            case Once():
-                return self.travel.one_pass(drives, playing.motion)
-            case duration:
-                return self._amount(world, duration)
+    def _lasting(self, world: World, duration: Duration | None) -> Estimate:
+        return lasting(world, duration, self.counted or self.names.root, self.names, self.travel)
 
-    def _amount(self, world: World, duration: Seconds | Cycles) -> Estimate:
-        if isinstance(duration, Seconds):
-            return exactly(duration.number)
-        _, playing = driver(world, self.counted or self.names.root, self.names)
-        return self.travel.cycle(playing.motion).times(duration.number)
+    def _to_last_frame(self, world: World) -> Estimate:
+        drives, playing = driver(world, self.counted, self.names)
+        return self.travel.to_last_frame(drives, playing)
 
 
 def chances_of(choose: Choose) -> list[float]:
