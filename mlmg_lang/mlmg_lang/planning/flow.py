@@ -30,10 +30,12 @@ class Part:
     ----------
     origins : the motions that may drive it, its own or its parent's.
     alone : whether it may run a motion other than its parent's.
+    following : of the motions, those that can drive it only where it follows the graph above: then that plays them.
     """
 
     origins: Origins
     alone: bool
+    following: frozenset[str] = frozenset()
 
     @property
     def motions(self) -> frozenset[str]:
@@ -133,9 +135,12 @@ def _either(a: State, b: State, names: Names) -> State:
         if len(own) == 1:
             follows = b if graph in a.parts else a
             above = next(above for above in names.ancestors(graph) if above in follows.parts)
-            own = [Part(own[0].origins, True), follows.parts[above]]
+            origins = follows.parts[above].origins
+            own = [replace(own[0], alone=True), Part(origins, False, frozenset(origins))]
         if own:
-            parts[graph] = Part(_merged(part.origins for part in own), any(part.alone for part in own))
+            running = frozenset(motion for part in own for motion in part.motions - part.following)
+            origins = _merged(part.origins for part in own)
+            parts[graph] = Part(origins, any(part.alone for part in own), frozenset(origins) - running)
     return State(parts, a.certain and b.certain)
 
 
@@ -245,8 +250,9 @@ class _Mover:
         own = self.state.parts.get(graph)
         sources = frozenset((motion,))
         if own is not None and motion in self._before(above) and self._may_stay(above):
-            may_be_ended = self._may_move(above) or self._runs_between(graph, above)
-            sources = own.motions | sources if may_be_ended else own.motions
+            running = own.motions - own.following
+            may_follow = own.following or self._may_move(above) or self._runs_between(graph, above)
+            sources = running | sources if may_follow else running
         dead = frozenset(source for source in sources if not self._leads_on(graph, source))
         return dead if self.state.certain or dead == sources else frozenset()
 
