@@ -22,8 +22,8 @@ class Page:
         """Return the script."""
         return "".join(f"{_line(row)}\n" for row in self._rows)
 
-    def add(self, rows: Iterable[Row]) -> None:
-        """Add the rows of one statement or kept stretch; what leads it goes before the first."""
+    def add(self, rows: Iterable[Row]) -> int:
+        """Add the rows of one statement or kept stretch, behind what leads it, and return the number of the first."""
         first, *others = rows
         if self._lead.code:
             first = Row(self._lead.indent, f"{self._lead.code} {first.code}", first.comment)
@@ -32,6 +32,7 @@ class Page:
         for row in others:
             self._add(row)
         self._last_code = len(self._rows) - 1
+        return len(self._rows) - 1 - len(others)
 
     def comment(self, indent: int, text: str, trails: bool) -> None:
         """Add a comment: behind the last row, or in a row of its own."""
@@ -40,6 +41,16 @@ class Page:
             self._rows[-1].comment = text
         else:
             self._add(Row(indent, "", text))
+
+    def comment_above(self, row: int, indent: int, text: str) -> None:
+        """Add a comment in a row of its own before one that is there."""
+        self._rows.insert(row, Row(indent, "", text))
+        self._last_code += 1
+
+    @property
+    def last_code(self) -> int:
+        """Return the number of the last row that is not a comment."""
+        return self._last_code
 
     def separate(self) -> None:
         """Put a `;` behind the last statement."""
@@ -68,10 +79,11 @@ class Page:
             self._last_code = len(self._rows) - 1
             self._lead = Row(0, "")
 
-    def open(self, row: Row) -> None:
-        """Add the row that begins a block."""
-        self.add([row])
+    def open(self, row: Row) -> int:
+        """Add the row that begins a block, and return its number."""
+        number = self.add([row])
         self._at_beginning = True
+        return number
 
     def close(self, indent: int) -> None:
         """Add the brace that ends a block."""

@@ -7,6 +7,7 @@ from typing import TypeAlias
 
 from mlmg_lang.parsing.layout import Block, Line
 from mlmg_lang.parsing.tokens import CONTINUES, Token
+from mlmg_lang.source import Span
 
 Piece: TypeAlias = Line | Block
 
@@ -26,9 +27,9 @@ def beginning(piece: Piece) -> Sequence[Token]:
     return piece.tokens if isinstance(piece, Line) else piece.head
 
 
-def start(piece: Piece) -> int:
-    """Return the offset at which a piece begins."""
-    return piece.tokens[0].span.start if isinstance(piece, Line) else piece.span.start
+def span(piece: Piece) -> Span:
+    """Return the place of a piece."""
+    return Span(piece.tokens[0].span.start, piece.tokens[-1].span.end) if isinstance(piece, Line) else piece.span
 
 
 def is_weight(piece: Piece) -> bool:

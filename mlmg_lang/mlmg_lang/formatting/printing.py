@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from typing import Final
 
 from mlmg_lang.formatting.page import Page
-from mlmg_lang.formatting.pieces import Piece, beginning, is_weight, start, statements, would_go_on
+from mlmg_lang.formatting.pieces import Piece, beginning, is_weight, span, statements, would_go_on
 from mlmg_lang.formatting.soundness import Soundness
 from mlmg_lang.formatting.words import shortest_number, words_of
 from mlmg_lang.formatting.wrapping import INDENT, WIDTH, Row, columns, wrap
@@ -16,6 +16,7 @@ from mlmg_lang.parsing.tokens import Token
 from mlmg_lang.source import Source, Span
 
 _BAR_INDENT: Final = INDENT - 2
+_TO_COMPILER: Final = re.compile(r"#\s*mlmg\s*:")
 _LINE_END: Final = re.compile(r"\r\n|\r|\n")
 
 
@@ -35,13 +36,14 @@ class Printer:
         self.kept = False
         self._at = 0  # the first token that has not been written yet
         self._page = Page()
+        self._top = 0  # the row in which the last statement begins
         self._sound = Soundness(source, tokens, layout)
         self._words = words_of(statements(layout.items))
 
     def script(self) -> str:
         """Return the text of all."""
         begin = self._keep_beginning()
-        self._body([piece for piece in self._layout.items if start(piece) >= begin], 0)
+        self._body([piece for piece in self._layout.items if span(piece).start >= begin], 0)
         return self._page.text()
 
     # --- what blocks cannot be told of ---
@@ -49,7 +51,7 @@ class Printer:
     def _keep_beginning(self) -> int:
         """Keep all up to the last `}` that closes nothing, and return where it ends."""
         wrong = (one.span for one in self._layout.diagnostics if one.span is not None)
-        end = max((span.end for span in wrong if self._source.slice(span) == "}"), default=0)
+        end = max((brace.end for brace in wrong if self._source.slice(brace) == "}"), default=0)
         if end:
             first = next(token.span.start for token in self._tokens if token.type != "NEWLINE")
             line = max(self._source.text.rfind(sign, 0, first) for sign in "\r\n") + 1
@@ -65,12 +67,12 @@ class Printer:
             end = next(token.span.end for token in reversed(self._tokens) if token.type != "NEWLINE")
         self._keep(Span(block.span.start, end), indent)
 
-    def _keep(self, span: Span, indent: int) -> None:
+    def _keep(self, stretch: Span, indent: int) -> None:
         """Write a stretch as it stands."""
         self.kept = True
-        first, *others = _LINE_END.split(self._source.slice(span))
-        self._page.add([Row(indent, first), *(Row(0, other) for other in others)])
-        self._skip(span.end)
+        first, *others = _LINE_END.split(self._source.slice(stretch))
+        self._top = self._page.add([Row(indent, first), *(Row(0, other) for other in others)])
+        self._skip(stretch.end)
 
     def _skip(self, end: int) -> None:
         while self._at < len(self._tokens) and self._tokens[self._at].span.start < end:
@@ -83,7 +85,7 @@ class Printer:
         parted = self._parted(pieces)
         before: Piece | None = None
         for n, piece in enumerate(pieces):
-            self._between(indent, before if n in parted or would_go_on(piece) else None)
+            self._between(indent, before, n in parted or would_go_on(piece))
             before = piece
             if isinstance(piece, Block):
                 self._block(piece, indent)
@@ -92,14 +94,15 @@ class Printer:
                 before = None
             else:
                 self._line(piece, indent)
-        self._between(indent, None)
+        self._between(indent, before, False)
 
-    def _between(self, indent: int, before: Piece | None) -> None:
+    def _between(self, indent: int, before: Piece | None, parted: bool) -> None:
         """Write what stands before the next statement or brace.
 
         Parameters
         ----------
-        before : a statement that would run into what follows it without the `;` behind it, if there is one.
+        before : the last statement of the body, if there is one.
+        parted : whether it would run into what follows it without the `;` behind it.
         """
         line_ends = run = 0
         while self._at < len(self._tokens):
@@ -109,15 +112,26 @@ class Printer:
                 if run == 2:
                     self._page.blank()
             elif token.type == "COMMENT":
-                self._page.comment(indent, token.text.rstrip(), trails=line_ends == 0)
+                self._comment(token.text.rstrip(), indent, line_ends == 0, before)
                 run = 0
             elif token.type == "SEMICOLON":
-                if isinstance(before, Line):
+                if parted and isinstance(before, Line):
                     self._semicolon(before, indent)
-                before, run = None, 0
+                parted, run = False, 0
             else:
                 return
             self._at += 1
+
+    def _comment(self, text: str, indent: int, trails: bool, before: Piece | None) -> None:
+        """Write a comment; one to the compiler about the line of a statement that gets more lines is put above it."""
+        if trails and before is not None and _TO_COMPILER.match(text) and self._gets_lines(before):
+            self._page.comment_above(self._top, indent, text)
+        else:
+            self._page.comment(indent, text, trails)
+
+    def _gets_lines(self, piece: Piece) -> bool:
+        """Return whether the last piece stood in one line, and stands in several now."""
+        return self._top < self._page.last_code and not _LINE_END.search(self._source.slice(span(piece)))
 
     def _semicolon(self, line: Line, indent: int) -> None:
         if line.tokens[-1].type == "UNCLOSED":  # it would swallow the sign
@@ -138,17 +152,17 @@ class Printer:
     # --- statements ---
 
     def _line(self, line: Line, indent: int) -> None:
-        begin, span = self._at, Span(line.tokens[0].span.start, line.tokens[-1].span.end)
+        begin, whole = self._at, span(line)
         if self._is_sound(line):
-            self._skip(span.end)
+            self._skip(whole.end)
             texts = self._words.written(line.tokens)
-            self._page.add(wrap(self._tokens[begin : self._at], texts, indent, self._taken(indent)))
+            self._top = self._page.add(wrap(self._tokens[begin : self._at], texts, indent, self._taken(indent)))
         elif is_weight(line) and self._goes_on(begin + 2):
             self.kept = True
-            self._skip(span.end)
-            self._page.lead_with(indent, self._source.slice(span))
+            self._skip(whole.end)
+            self._page.lead_with(indent, self._source.slice(whole))
         else:
-            self._keep(span, indent)
+            self._keep(whole, indent)
 
     def _weight(self, line: Line, indent: int) -> None:
         self._skip(line.tokens[-1].span.end)
@@ -173,10 +187,10 @@ class Printer:
         short = self._short(block, head)
         if short is not None and indent + self._taken(indent) + columns(short) <= WIDTH:
             self._skip(block.span.end)
-            self._page.add([Row(indent, short)])
+            self._top = self._page.add([Row(indent, short)])
             return
         self._skip(block.brace.end)
-        self._page.open(Row(indent, f"{head} {{"))
+        top = self._page.open(Row(indent, f"{head} {{"))
         chooses = block.head[0].type == "CHOOSE"
         for n, branch in enumerate(block.branches):
             if n:
@@ -185,6 +199,7 @@ class Printer:
             self._body(branch, indent + INDENT, chooses)
         self._page.close(indent)
         self._at += 1
+        self._top = top
 
     def _short(self, block: Block, head: str) -> str | None:
         """Return a block in one line, if it is a choice of single statements, or nothing stands in it."""

@@ -12,12 +12,11 @@ import pytest
 from hypothesis.strategies import SearchStrategy
 
 from mlmg_lang.formatting.format_script import format_source
+from mlmg_lang.front_end import analyse
 from mlmg_lang.parsing import syntax
 from mlmg_lang.parsing.amounts import UNITS
 from mlmg_lang.parsing.case import is_shouted
-from mlmg_lang.parsing.parse import parse
 from mlmg_lang.parsing.structure import is_sub
-from mlmg_lang.parsing.tokenize import tokenize
 from mlmg_lang.source import Source, Span
 
 
@@ -45,13 +44,11 @@ def meaning(value: Any, source: Source) -> Any:
 def facts(text: str) -> dict[str, Any]:
     """Return all that formatting must not change."""
     source = Source(text)
-    tokens = tokenize(source)
-    parsed = parse(source, tokens)
-    found = sorted(parsed.diagnostics, key=lambda one: (one.span is not None, one.span))
+    analysis = analyse(source)
     return {
-        "meaning": meaning(parsed.script.items, source),
-        "comments": [token.text.rstrip() for token in tokens if token.type == "COMMENT"],
-        "codes": [one.code for one in found],
+        "meaning": meaning(analysis.script.items, source),
+        "comments": [token.text.rstrip() for token in analysis.tokens if token.type == "COMMENT"],
+        "codes": [one.code for one in analysis.diagnostics],
     }
 
 
