@@ -1,0 +1,285 @@
+"""Forty scripts on the reference library: what each of them must choose, and why (see scripts/README.md).
+
+What stands behind `#=` in a script is held twice: against what this file works out from LANGUAGE.md 5 and 6, slowly
+and without the performer (arrivals by shortest paths over all frames, fits from the table of similarities), and
+against the report of the run. Only where the character is before a command is taken from the report.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from itertools import pairwise
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import dijkstra
+
+from mlmg_lang.execution import executed
+from mlmg_lang.front_end import Analysis, analyse
+from mlmg_lang.perform import perform
+from mlmg_lang.planning.resolved import Command, Cycles, End, Layer, Once, Seconds, Wait
+from mlmg_lang.script_files import used_files
+from mlmg_lang.source import Source
+from mlmg_runtime.library import Library
+from mlmg_runtime.motion_graph import MotionGraph
+
+FOLDER = Path(__file__).parent / "scripts"
+SCRIPTS = sorted(path for path in FOLDER.rglob("*.ms") if path.parent.name != "used")
+CLAIM = re.compile(r"#= *(.*?) *$")
+FRAMES_A_SECOND = 30
+SMALL = 1e-6
+"""What a transition's cost is worth in frames: less than one, whatever the walk."""
+
+
+@dataclass(frozen=True)
+class Script:
+    """A script with what it claims: header lines `# key: value`, and behind `#=` what each step does."""
+
+    path: Path
+
+    @cached_property
+    def text(self) -> str:
+        return self.path.read_text(encoding="utf-8")
+
+    def header(self, key: str) -> str | None:
+        found = re.search(rf"^# {key}: *(.*?) *$", self.text, re.MULTILINE)
+        return found and found[1]
+
+    @cached_property
+    def claims(self) -> dict[int, list[str]]:
+        """Return the claims by the line of the statement that they are about: their own, or the last above."""
+        claims: dict[int, list[str]] = {}
+        statement = 0
+        for number, line in enumerate(self.text.split("\n"), start=1):
+            statement = number if line.split("#")[0].strip(" }") else statement
+            if claim := CLAIM.search(line):
+                claims.setdefault(statement, []).append(claim[1])
+        return claims
+
+    def with_claims(self, told: Mapping[int, list[str]]) -> str:
+        """Return the text with other claims in the places of its own."""
+        rest = {line: iter(claims) for line, claims in told.items()}
+        statement, lines = 0, []
+        for number, line in enumerate(self.text.split("\n"), start=1):
+            statement = number if line.split("#")[0].strip(" }") else statement
+            lines.append(CLAIM.sub(lambda _, at=statement: f"#= {next(rest[at])}", line))
+        return "\n".join(lines)
+
+    def analysis(self, library: Library) -> Analysis:
+        return analyse(Source(self.text, str(self.path)), library, self.header("start"), used_files(self.path))
+
+
+@dataclass
+class Teller:
+    """Goes through a script as LANGUAGE.md has it, one step after the other, and tells what has to happen.
+
+    `own` are the motions of the graphs that run on their own, `now` is the frame of the output.
+    """
+
+    library: Library
+    report: Mapping[str, Any]
+    own: dict[str, str]
+    now: int = 0
+    counted: str = ""
+    entries: Iterator[Mapping[str, Any]] = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.counted = self.library.root.name
+        self.entries = iter(self.report["commands"])
+
+    def tell(self, step: Command | Wait | End, is_last: bool) -> str:
+        match step:
+            case Command():
+                return self._command(step, is_last)
+            case Wait(duration=duration):
+                n_frames = self._n_frames(duration)
+                self.now += n_frames
+                return frames(n_frames)
+            case End(graph=graph):
+                return self._end(graph)
+
+    def _command(self, command: Command, is_last: bool) -> str:
+        """Tell of a command, and hold the report to it."""
+        entry = next(self.entries)
+        assert entry["begin"] == self.now
+        named = [layer.graph for layer in command.layers]
+        told, arrived = self._end_parts([part for part in self._below(named) if part not in named])
+        for layer in command.layers:
+            more, arrived = self._layer(layer, entry, arrived)
+            told += more
+        assert entry["motions"] == {graph: self._driver(graph) for graph in named}, told
+        assert entry["arrive"] == arrived
+        self.counted = named[0]
+        n_frames = self._lasts(command, entry, is_last)
+        assert entry["end"] - entry["arrive"] == n_frames
+        self.now = entry["end"]
+        return "; ".join([*told, frames(n_frames)] if n_frames else told)
+
+    def _layer(self, layer: Layer, entry: Mapping[str, Any], from_then: int) -> tuple[list[str], int]:
+        """Tell what happens on a graph, where all above have arrived at a moment; and when it has arrived itself."""
+        graph, candidates = layer.graph, layer.candidates
+        left = "".join(f", without {out.motion} ({out.reason})" for out in layer.left_out)
+        driver, above = self._driver(graph), self.library.parent(graph)
+        if driver in candidates:
+            verb = "keeps" if graph in self.own else "follows"
+            return [f"{graph} {verb} {driver} of {' '.join(candidates)}{left}"], from_then
+        told, back = self._end_parts(self._below([graph]))
+        from_then = max(from_then, back)
+        best, numbers = self._fittest(graph, candidates) if above else self._soonest(candidates, entry, from_then)
+        if above and best == self._driver(above):
+            del self.own[graph]
+            return [*told, f"{graph} ends: {numbers}{left}"], self._run_ends(graph, from_then)
+        self.own[graph] = best
+        return [*told, f"{graph} {numbers}{left}"], self._arrives(graph, entry, from_then)
+
+    def _end(self, graph: str) -> str:
+        told, until = self._end_parts([graph] if graph in self.own else [])
+        n_frames, self.now = until - self.now, until
+        return f"{told[0]} in {frames(n_frames)}" if told else f"{graph} does not run"
+
+    def _end_parts(self, graphs: list[str]) -> tuple[list[str], int]:
+        """End parts; tell of them, and when the last is back."""
+        back = [self._run_ends(graph, self.now) for graph in graphs]
+        for graph in graphs:
+            del self.own[graph]
+        return [f"{graph} ends" for graph in graphs], max([self.now, *back])
+
+    # What the language says of time
+
+    def _lasts(self, command: Command, entry: Mapping[str, Any], is_last: bool) -> int:
+        if isinstance(command.duration, Once):
+            raise NotImplementedError
+        if command.duration is not None:
+            return self._n_frames(command.duration)
+        return self._rest(entry["arrive"]) if is_last else 0
+
+    def _n_frames(self, duration: Seconds | Cycles) -> int:
+        if isinstance(duration, Seconds):
+            return round(duration.number * FRAMES_A_SECOND)
+        return round(duration.number * self.library.n_frames(self._driver(self.counted)))
+
+    def _rest(self, arrive: int) -> int:
+        """Return how many frames the topmost named motion has left when all have arrived."""
+        graph = next(g for g in (self.counted, *self.library.ancestors(self.counted)) if g in self.own)
+        time, motion, frame = self._place(graph, arrive)
+        assert motion == self.own[graph]
+        return time - arrive + self.library.n_frames(motion) - frame
+
+    # What the language says of choices
+
+    def _soonest(self, candidates: tuple[str, ...], entry: Mapping[str, Any], from_then: int) -> tuple[str, str]:
+        """Return what is reached soonest on the root graph; and of all, how many frames after the command began.
+
+        What is reached equally soon is told with its costs: the smoothest first, then in the library's order.
+        """
+        graph = self.library.root
+        arrivals = self._arrivals(graph, from_then)
+        best = sorted(candidates, key=arrivals.__getitem__)
+        assert self._arrives(graph.name, entry, from_then) == arrivals[best[0]][0]
+        told = best[0]
+        for before, motion in pairwise([best[0], *best]):
+            told += "" if motion == before else f" {'=' if arrivals[before] == arrivals[motion] else '<'} {motion}"
+            told += f" {arrivals[motion][0] - entry['begin']}"
+            if sum(arrivals[other][0] == arrivals[motion][0] for other in candidates) > 1:
+                told += f" costing {arrivals[motion][1]:.3g}"
+        return best[0], told
+
+    def _arrivals(self, graph: MotionGraph, time: int) -> dict[str, tuple[int, float]]:
+        """Return at what frame each motion can be reached, and at what cost of transitions.
+
+        A frame of a clip is one step, a transition k.
+        """
+        at, motion, frame = self._place(graph.name, time)
+        firsts = np.concatenate([[0], np.cumsum(graph.n_frames)])
+        clips = np.setdiff1d(np.arange(firsts[-1]), firsts[1:] - 1)
+        edges = graph.transitions
+        leaves, lands = (firsts[edges[f"{end}_motion"]] + edges[f"{end}_frame"] for end in ("src", "dst"))
+        tails, heads = np.concatenate([clips, leaves]), np.concatenate([clips + 1, lands + 1])
+        last_steps = graph.window + SMALL * edges["cost"]
+        steps = np.concatenate([np.ones(len(clips)), last_steps])
+        walks = coo_array((steps, (tails, heads)), shape=(firsts[-1], firsts[-1])).tocsr()
+        lasts = dijkstra(walks, indices=firsts[graph.index[motion]] + frame)[leaves] + last_steps
+        ways = list(zip(edges["dst_motion"], lasts, strict=True))
+        found = {target: min(last for into, last in ways if into == graph.index[target]) for target in graph.motions}
+        return {
+            target: (at + int(last), round(last % 1 / SMALL, 4)) for target, last in found.items() if np.isfinite(last)
+        }
+
+    def _fittest(self, graph: str, candidates: tuple[str, ...]) -> tuple[str, str]:
+        """Return what fits best to the motion above by its overall motion similarity; and of all, that in thousands."""
+        own = self.library.by_name[graph]
+        above = own.index[self._driver(str(own.parent))]
+        fits = {motion: float(own.oms[above, own.index[motion]]) for motion in candidates}
+        best = sorted(candidates, key=fits.__getitem__)
+        return best[0], " < ".join(f"{motion} {fits[motion] / 1000:.3g}" for motion in best)
+
+    def _driver(self, graph: str) -> str:
+        return next(self.own[g] for g in (graph, *self.library.ancestors(graph)) if g in self.own)
+
+    def _below(self, graphs: list[str]) -> list[str]:
+        """Return what runs on its own below one of some graphs."""
+        return [part for part in self.own if any(above in graphs for above in self.library.ancestors(part))]
+
+    # What the report tells of where the character is
+
+    def _place(self, graph: str, time: int) -> tuple[int, str, int]:
+        """Return the next moment at which a graph may leave its clip, with the clip and the frame shown then."""
+        entry = next(e for e in self.report["tracks"][graph] if e["begin"] <= time < e["end"])
+        if entry["kind"] == "clip":
+            return time, entry["motion"], entry["clip_begin"] + time - entry["begin"]
+        if entry["begin"] == time:
+            return time, *entry["from"]
+        motion, frame = entry["to"]
+        return entry["end"], motion, frame + 1
+
+    def _run_ends(self, graph: str, time: int) -> int:
+        """Return until when a graph runs without a pause from a moment on."""
+        for entry in self.report["tracks"].get(graph, ()):
+            time = max(time, entry["end"]) if entry["begin"] <= time else time
+        return time
+
+    def _arrives(self, graph: str, entry: Mapping[str, Any], from_then: int) -> int:
+        """Return when a graph, which sets out at a moment or later, comes into the motion it has on arrival."""
+        ways = [e for e in self.report["tracks"][graph] if e["kind"] == "transition" and from_then <= e["begin"]]
+        return next(e["end"] for e in ways if e["to"][0] == entry["motions"][graph])
+
+
+def frames(n_frames: int) -> str:
+    return f"{n_frames} frame{'' if n_frames == 1 else 's'}"
+
+
+def told_of(script: Script, library: Library) -> dict[int, list[str]]:
+    """Return what a script must do, by line."""
+    analysis = script.analysis(library)
+    codes = ", ".join(one.code for one in analysis.diagnostics)
+    assert codes == (script.header("diagnostics") or ""), analysis.diagnostics
+    plan, seed = analysis.resolved, int(script.header("seed") or 0)
+    report = perform(plan, library, seed).report
+    steps = list(executed(plan, seed))
+    teller = Teller(library, report, {library.root.name: plan.start})
+    told: dict[int, list[str]] = {}
+    for at, step in enumerate(steps, start=1):
+        last_line = analysis.source.location(step.span)[2]
+        told.setdefault(last_line, []).append(teller.tell(step, is_last=at == len(steps)))
+    assert teller.now == report["n_frames"]
+    return told
+
+
+@pytest.mark.parametrize("path", SCRIPTS, ids=lambda path: str(path.relative_to(FOLDER).with_suffix("")))
+def test_a_script_chooses_what_is_written_beside_it(path, reference_library, request):
+    script = Script(path)
+    told = told_of(script, reference_library)
+    if request.config.getoption("update_golden"):
+        path.write_text(script.with_claims(told), encoding="utf-8")
+    else:
+        assert script.claims == told
+
+
+def test_there_are_forty():
+    assert len(SCRIPTS) >= 40
