@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 from mlmg_lang.catalog import Catalog
 from mlmg_lang.definitions.expand import expand
@@ -15,15 +16,12 @@ from mlmg_lang.parsing.structure import check_definition, check_structure, mispl
 from mlmg_lang.parsing.syntax import Script
 from mlmg_lang.parsing.tokenize import tokenize
 from mlmg_lang.parsing.tokens import Token
-from mlmg_lang.planning.names import Names
-from mlmg_lang.planning.passing import left_at_once
-from mlmg_lang.planning.plan import plan
-from mlmg_lang.planning.resolve import resolve
-from mlmg_lang.planning.resolved import ResolvedPlan
-from mlmg_lang.planning.typed import TypedPlan
-from mlmg_lang.planning.unusual import unusual
 from mlmg_lang.source import Source
 from mlmg_lang.suppression import suppress
+
+if TYPE_CHECKING:
+    from mlmg_lang.planning.resolved import ResolvedPlan
+    from mlmg_lang.planning.typed import TypedPlan
 
 
 @dataclass(frozen=True, slots=True)
@@ -89,6 +87,13 @@ def _structure(
 
 def _against(analysis: Analysis, catalog: Catalog, start: str | None) -> Analysis:
     """Return an analysis that goes on with what a library says."""
+    # A fifth of what checking a small script without a library takes would be spent on importing these.
+    from mlmg_lang.planning.names import Names
+    from mlmg_lang.planning.passing import left_at_once
+    from mlmg_lang.planning.plan import plan
+    from mlmg_lang.planning.resolve import resolve
+    from mlmg_lang.planning.unusual import unusual
+
     source, names = analysis.source, Names(catalog)
     planned = plan(analysis.expanded, analysis.definitions, names, catalog.frame_rate, source)
     resolution = resolve(planned.plan, names, catalog, source, start)

@@ -208,9 +208,11 @@ def _show_changes(before: Source, after: Source) -> None:
 
 def _write(done: Sequence[_Checked], form: str, stream: TextIO) -> None:
     """Write what was found."""
+    checked = [(one.source, one.diagnostics) for one in done]
+    if form in ("full", "concise") and not any(one.diagnostics for one in done):
+        return
     from mlmg_lang import rendering
 
-    checked = [(one.source, one.diagnostics) for one in done]
     if form == "json":
         stream.write(rendering.render_json(checked))
     elif form == "sarif":

@@ -6,7 +6,6 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any, Final
-from urllib.parse import quote
 
 from mlmg_lang.diagnostics import CODES, Diagnostic, Fix, Severity
 from mlmg_lang.rendering.paths import STDIN, relative
@@ -94,6 +93,8 @@ def _region(source: Source, span: Span) -> dict[str, int]:
 
 def _artifact(file: Source) -> dict[str, str]:
     """Return where a file is: from the root of what is checked out, if it is below the current folder."""
+    from urllib.parse import quote
+
     name = relative(file.name)
     if Path(name).is_absolute():
         return {"uri": Path(name).as_uri()}
