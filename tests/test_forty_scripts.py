@@ -53,23 +53,25 @@ class Script:
 
     @cached_property
     def claims(self) -> dict[int, list[str]]:
-        """Return the claims by the line of the statement that they are about: their own, or the last above."""
+        """Return the claims by the line of the statement that they are about."""
         claims: dict[int, list[str]] = {}
-        statement = 0
-        for number, line in enumerate(self.text.split("\n"), start=1):
-            statement = number if line.split("#")[0].strip(" }") else statement
+        for statement, line in self._lines():
             if claim := CLAIM.search(line):
                 claims.setdefault(statement, []).append(claim[1])
         return claims
 
     def with_claims(self, told: Mapping[int, list[str]]) -> str:
         """Return the text with other claims in the places of its own."""
-        rest = {line: iter(claims) for line, claims in told.items()}
-        statement, lines = 0, []
+        rest = {statement: iter(claims) for statement, claims in told.items()}
+        lines = (CLAIM.sub(lambda _, at=at: f"#= {next(rest[at])}", line) for at, line in self._lines())
+        return "\n".join(lines)
+
+    def _lines(self) -> Iterator[tuple[int, str]]:
+        """Yield each line, and which one above it, or it itself, is the last with more than comments and braces."""
+        statement = 0
         for number, line in enumerate(self.text.split("\n"), start=1):
             statement = number if line.split("#")[0].strip(" }") else statement
-            lines.append(CLAIM.sub(lambda _, at=statement: f"#= {next(rest[at])}", line))
-        return "\n".join(lines)
+            yield statement, line
 
     def analysis(self, library: Library) -> Analysis:
         return analyse(Source(self.text, str(self.path)), library, self.header("start"), used_files(self.path))
@@ -111,7 +113,8 @@ class Teller:
         named = [layer.graph for layer in command.layers]
         told, arrived = self._end_parts([part for part in self._below(named) if part not in named])
         for layer in command.layers:
-            more, arrived = self._layer(layer, entry, arrived)
+            afresh = layer is command.layers[0] and isinstance(command.duration, Once)
+            more, arrived = self._layer(layer, entry, arrived, afresh)
             told += more
         assert entry["motions"] == {graph: self._driver(graph) for graph in named}, told
         assert entry["arrive"] == arrived
@@ -121,22 +124,45 @@ class Teller:
         self.now = entry["end"]
         return "; ".join([*told, frames(n_frames)] if n_frames else told)
 
-    def _layer(self, layer: Layer, entry: Mapping[str, Any], from_then: int) -> tuple[list[str], int]:
-        """Tell what happens on a graph, where all above have arrived at a moment; and when it has arrived itself."""
+    def _layer(self, layer: Layer, entry: Mapping[str, Any], from_then: int, afresh: bool) -> tuple[list[str], int]:
+        """Tell what happens on a graph, where all above have arrived at a moment; and when it has arrived itself.
+
+        `afresh`: its motion is wanted `once`, from where it begins.
+        """
         graph, candidates = layer.graph, layer.candidates
         left = "".join(f", without {out.motion} ({out.reason})" for out in layer.left_out)
         driver, above = self._driver(graph), self.library.parent(graph)
-        if driver in candidates:
+        if driver in candidates and not (afresh and not self._begins(graph, from_then)):
             verb = "keeps" if graph in self.own else "follows"
             return [f"{graph} {verb} {driver} of {' '.join(candidates)}{left}"], from_then
         told, back = self._end_parts(self._below([graph]))
         from_then = max(from_then, back)
-        best, numbers = self._fittest(graph, candidates) if above else self._soonest(candidates, entry, from_then)
-        if above and best == self._driver(above):
+        if afresh:
+            candidates, way = self._beginnings(graph, candidates)
+            left += f", from frame {self.library.by_name[graph].window - 1} by a {way}"
+        measured = self._fits(graph) if above else self._arrivals(self.library.root, from_then)
+        best, numbers = best_of(candidates, measured, entry["begin"])
+        if above and best == self._driver(above) and not afresh:
             del self.own[graph]
             return [*told, f"{graph} ends: {numbers}{left}"], self._run_ends(graph, from_then)
         self.own[graph] = best
-        return [*told, f"{graph} {numbers}{left}"], self._arrives(graph, entry, from_then)
+        arrival = self._arrives(graph, entry, from_then, afresh)
+        assert above or afresh or arrival == measured[best][0]
+        return [*told, f"{graph} {numbers}{left}"], arrival
+
+    def _begins(self, graph: str, time: int) -> bool:
+        """Return whether a graph has just begun its motion, at its first frame or where transitions lead to."""
+        if graph not in self.own:
+            return False
+        _, motion, frame = self._place(graph, time)
+        return motion == self.own[graph] and frame in (0, self.library.by_name[graph].window)
+
+    def _beginnings(self, graph: str, candidates: tuple[str, ...]) -> tuple[tuple[str, ...], str]:
+        """Return which candidates can be begun by a transition; or, if there is none, that all take a blend."""
+        own = self.library.by_name[graph]
+        entered = {own.motions[edge.dst_motion] for edge in own.edges if edge.dst_frame == own.window - 1}
+        begun = tuple(motion for motion in candidates if motion in entered)
+        return (begun, "transition") if begun else (candidates, "blend")
 
     def _end(self, graph: str) -> str:
         told, until = self._end_parts([graph] if graph in self.own else [])
@@ -154,41 +180,26 @@ class Teller:
 
     def _lasts(self, command: Command, entry: Mapping[str, Any], is_last: bool) -> int:
         if isinstance(command.duration, Once):
-            raise NotImplementedError
+            return self._rest(entry["arrive"], to_exit=True)
         if command.duration is not None:
             return self._n_frames(command.duration)
-        return self._rest(entry["arrive"]) if is_last else 0
+        return self._rest(entry["arrive"], to_exit=False) if is_last else 0
 
     def _n_frames(self, duration: Seconds | Cycles) -> int:
         if isinstance(duration, Seconds):
             return round(duration.number * FRAMES_A_SECOND)
         return round(duration.number * self.library.n_frames(self._driver(self.counted)))
 
-    def _rest(self, arrive: int) -> int:
-        """Return how many frames the topmost named motion has left when all have arrived."""
-        graph = next(g for g in (self.counted, *self.library.ancestors(self.counted)) if g in self.own)
-        time, motion, frame = self._place(graph, arrive)
-        assert motion == self.own[graph]
-        return time - arrive + self.library.n_frames(motion) - frame
+    def _rest(self, arrive: int, to_exit: bool) -> int:
+        """Return how many frames the topmost named motion has left on arrival, up to its end or to its last exit."""
+        name = next(g for g in (self.counted, *self.library.ancestors(self.counted)) if g in self.own)
+        graph = self.library.by_name[name]
+        time, motion, frame = self._place(name, arrive)
+        assert motion == self.own[name]
+        exits = [edge.src_frame for edge in graph.edges if edge.src_motion == graph.index[motion]]
+        return time - arrive + (max(exits) if to_exit else self.library.n_frames(motion)) - frame
 
     # What the language says of choices
-
-    def _soonest(self, candidates: tuple[str, ...], entry: Mapping[str, Any], from_then: int) -> tuple[str, str]:
-        """Return what is reached soonest on the root graph; and of all, how many frames after the command began.
-
-        What is reached equally soon is told with its costs: the smoothest first, then in the library's order.
-        """
-        graph = self.library.root
-        arrivals = self._arrivals(graph, from_then)
-        best = sorted(candidates, key=arrivals.__getitem__)
-        assert self._arrives(graph.name, entry, from_then) == arrivals[best[0]][0]
-        told = best[0]
-        for before, motion in pairwise([best[0], *best]):
-            told += "" if motion == before else f" {'=' if arrivals[before] == arrivals[motion] else '<'} {motion}"
-            told += f" {arrivals[motion][0] - entry['begin']}"
-            if sum(arrivals[other][0] == arrivals[motion][0] for other in candidates) > 1:
-                told += f" costing {arrivals[motion][1]:.3g}"
-        return best[0], told
 
     def _arrivals(self, graph: MotionGraph, time: int) -> dict[str, tuple[int, float]]:
         """Return at what frame each motion can be reached, and at what cost of transitions.
@@ -211,13 +222,11 @@ class Teller:
             target: (at + int(last), round(last % 1 / SMALL, 4)) for target, last in found.items() if np.isfinite(last)
         }
 
-    def _fittest(self, graph: str, candidates: tuple[str, ...]) -> tuple[str, str]:
-        """Return what fits best to the motion above by its overall motion similarity; and of all, that in thousands."""
+    def _fits(self, graph: str) -> dict[str, tuple[float, float]]:
+        """Return the overall motion similarity of each motion to what the graph above plays."""
         own = self.library.by_name[graph]
         above = own.index[self._driver(str(own.parent))]
-        fits = {motion: float(own.oms[above, own.index[motion]]) for motion in candidates}
-        best = sorted(candidates, key=fits.__getitem__)
-        return best[0], " < ".join(f"{motion} {fits[motion] / 1000:.3g}" for motion in best)
+        return {motion: (float(own.oms[above, own.index[motion]]), 0.0) for motion in own.motions}
 
     def _driver(self, graph: str) -> str:
         return next(self.own[g] for g in (graph, *self.library.ancestors(graph)) if g in self.own)
@@ -244,10 +253,29 @@ class Teller:
             time = max(time, entry["end"]) if entry["begin"] <= time else time
         return time
 
-    def _arrives(self, graph: str, entry: Mapping[str, Any], from_then: int) -> int:
+    def _arrives(self, graph: str, entry: Mapping[str, Any], from_then: int, afresh: bool) -> int:
         """Return when a graph, which sets out at a moment or later, comes into the motion it has on arrival."""
-        ways = [e for e in self.report["tracks"][graph] if e["kind"] == "transition" and from_then <= e["begin"]]
-        return next(e["end"] for e in ways if e["to"][0] == entry["motions"][graph])
+        begins = self.library.by_name[graph].window - 1
+        ways = [e for e in self.report["tracks"][graph] if e["kind"] != "clip" and from_then <= e["begin"]]
+        into = [e for e in ways if e["to"] is not None and e["to"][0] == self.own[graph]]
+        return next(e["end"] for e in into if not afresh or e["to"][1] == begins)
+
+
+def best_of(candidates: tuple[str, ...], measured: Mapping[str, tuple[float, float]], begin: int) -> tuple[str, str]:
+    """Return the best of some candidates, the first of those that are equally good, and how they compare in words.
+
+    Frames are whole numbers and told from the begin of the command on; fits are told in thousands.
+    """
+    ranked = sorted(candidates, key=measured.__getitem__)
+    told = ""
+    for before, motion in pairwise([None, *ranked]):
+        number, cost = measured[motion]
+        if before is not None:
+            told += " = " if measured[before] == measured[motion] else " < "
+        told += f"{motion} {number - begin}" if isinstance(number, int) else f"{motion} {number / 1000:.3g}"
+        if sum(measured[other][0] == number for other in candidates) > 1:
+            told += f" costing {cost:.3g}"
+    return ranked[0], told
 
 
 def frames(n_frames: int) -> str:
