@@ -191,10 +191,16 @@ class Candidate:
 
 @dataclass(frozen=True, slots=True)
 class Fit:
-    """A candidate with its overall motion similarity to what the graph above plays."""
+    """A candidate with its overall motion similarity to what the graph above plays; the smaller, the better.
+
+    Attributes
+    ----------
+    of_usual : the same over the usual one of the graph's motions.
+    """
 
     motion: str
     oms: float
+    of_usual: float
 
 
 @dataclass(frozen=True, slots=True)

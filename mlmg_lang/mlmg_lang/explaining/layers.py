@@ -94,9 +94,14 @@ def _rankings(layer: resolved.Layer, legs: _Legs, travel: Travel) -> list[told.R
     rankings = []
     for above, chance in sorted(chances.items(), key=lambda one: -one[1]):
         order = by_similarity(layer.graph, above, layer.candidates, travel)
-        fits = (told.Fit(motion, _thousandths(travel.similarity(layer.graph, above, motion))) for motion in order)
+        fits = (_fit(layer.graph, above, motion, travel) for motion in order)
         rankings.append(told.Ranking(above, _thousandths(chance), tuple(fits)))
     return rankings
+
+
+def _fit(graph: str, above: str, motion: str, travel: Travel) -> told.Fit:
+    oms, of_usual = travel.similarity(graph, above, motion), travel.unlikeness(graph, above, motion)
+    return told.Fit(motion, _thousandths(oms), _thousandths(of_usual))
 
 
 def _candidate(motion: str, graph: str, legs: _Legs, travel: Travel, to_begin: bool) -> told.Candidate:

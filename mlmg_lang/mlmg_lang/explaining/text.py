@@ -16,6 +16,7 @@ from mlmg_lang.explaining.explanation import (
     Execution,
     Explanation,
     Expression,
+    Fit,
     Gain,
     Layer,
     Likely,
@@ -284,7 +285,7 @@ def _staying(layer: Layer) -> Iterator[str]:
 def _only(layer: Layer) -> str:
     """Return what there is to say of the only candidate."""
     one = layer.candidates[0]
-    _, motion, oms, takes, cost, _ = _row(0, one, _oms_of(layer).get(one.motion))
+    _, motion, oms, takes, cost, _ = _row(0, one, _oms_of(layer).get(one.motion, ""))
     return ", ".join(part for part in (motion, takes, cost, oms) if part)
 
 
@@ -296,7 +297,7 @@ def _source(layer: Layer, graph: str, motion: str, chance: float) -> str:
 def _candidates(layer: Layer) -> list[Tree]:
     shown = layer.candidates[:_MOST_CANDIDATES]
     oms = _oms_of(layer)
-    rows = [_row(number, one, oms.get(one.motion)) for number, one in enumerate(shown, 1)]
+    rows = [_row(number, one, oms.get(one.motion, "")) for number, one in enumerate(shown, 1)]
     trees = [
         Tree(line, style=(_GREEN,) if one.chance > 0 else ()) for line, one in zip(table(rows), shown, strict=True)
     ]
@@ -307,13 +308,16 @@ def _candidates(layer: Layer) -> list[Tree]:
     return trees
 
 
-def _oms_of(layer: Layer) -> dict[str, float]:
-    """Return the candidates' OMS, if there is but one motion that they can be compared with."""
-    return {fit.motion: fit.oms for fit in layer.rankings[0].fits} if len(layer.rankings) == 1 else {}
+def _oms_of(layer: Layer) -> dict[str, str]:
+    """Return how candidates fit, if there is but one motion that they can be compared with."""
+    return {fit.motion: _fit(fit) for fit in layer.rankings[0].fits} if len(layer.rankings) == 1 else {}
 
 
-def _row(number: int, one: Candidate, oms: float | None) -> tuple[str, ...]:
-    fits = "" if oms is None else f"OMS {_oms(oms)}"
+def _fit(fit: Fit) -> str:
+    return f"OMS {_oms(fit.oms)} ({fit.of_usual:.1f} of usual)"
+
+
+def _row(number: int, one: Candidate, fits: str) -> tuple[str, ...]:
     takes = "" if one.takes is None else seconds(one.takes)
     cost = "" if one.cost is None else f"cost {one.cost:.2f}"
     taken = "taken" if one.chance >= 1.0 else f"taken in {share(one.chance)}" if one.chance > 0 else ""
@@ -328,7 +332,7 @@ def _told_apart(layer: Layer) -> Sequence[Ranking]:
 
 
 def _ranking(one: Ranking) -> Tree:
-    fits = " before ".join(f"{fit.motion} (OMS {_oms(fit.oms)})" for fit in one.fits)
+    fits = " before ".join(f"{fit.motion} {_fit(fit)}" for fit in one.fits)
     return Tree(f"while the graph above plays {one.above} ({share(one.chance)})", fits, style=(_DIM,))
 
 

@@ -107,6 +107,10 @@ class MotionTravel:
         own = self.library.by_name[graph]
         return float(own.oms[own.index[above], own.index[motion]])
 
+    def unlikeness(self, graph: str, above: str, motion: str) -> float:
+        """Return the same over what is usual on the graph."""
+        return self.library.unlikeness(graph, above, motion)
+
     def to_last_frame(self, driver: str, playing: Playing) -> Estimate:
         """Return how long it takes until the clip's last frame has been shown."""
         places = self._places(driver, playing)
@@ -153,10 +157,11 @@ class MotionTravel:
         above = self.library.by_name[driver]
         loop = None if driver == own.name else latest_loop(above, above.index[motion])
         if loop is not None:
-            # A part may also set out after the graph above has looped.
+            # A part may also set out after the graph above has looped, if that is sooner.
             again = self._from(own, into, motion, np.array([loop.dst_frame + 1]))[0]
             wait = np.where(places.frames <= loop.src_frame, loop.src_frame - places.frames + above.window, np.inf)
-            ways = np.minimum(ways, again + places.leads + wait)
+            later = again + places.leads + wait
+            ways = np.where(later.real < ways.real, later, ways)
         return ways
 
     def _from(self, own: MotionGraph, into: _Into, motion: str, frames: IntArray) -> _Ways:

@@ -118,6 +118,9 @@ class Travel(Protocol):
     def similarity(self, graph: str, above: str, motion: str) -> float:
         """Return the OMS of a motion to that of the graph above; the smaller, the better it fits."""
 
+    def unlikeness(self, graph: str, above: str, motion: str) -> float:
+        """Return the same over what is usual on the graph."""
+
     def to_last_frame(self, driver: str, playing: Playing) -> Estimate:
         """Return how long it takes until the clip's last frame has been shown."""
 
