@@ -159,7 +159,7 @@ def _codes(text: str, start: int) -> Iterator[tuple[str, Span]]:
 
 
 def _statements(items: Iterable[Line | Block]) -> Iterator[Span]:
-    """Yield where statements are, blocks before what is in them; the weights of branches are left out."""
+    """Yield where statements are, as they begin; a block before what is in it. Weights of branches are left out."""
     for item in items:
         if isinstance(item, Block):
             yield item.span
@@ -171,12 +171,11 @@ def _statements(items: Iterable[Line | Block]) -> Iterator[Span]:
 
 def _next(comment: Span, statements: Sequence[Span]) -> Span:
     """Return the statement behind a comment, or the rest of the one that it stands in; else no place at all."""
-    following = [one for one in statements if one.start >= comment.end]
-    first = min((one.start for one in following), default=None)
+    following = next((one for one in statements if one.start >= comment.end), None)
     around = [one for one in statements if one.start < comment.start and comment.end < one.end]
-    if around and (first is None or around[-1].end < first):
+    if around and (following is None or around[-1].end < following.start):
         return Span(comment.end, around[-1].end)
-    return max((one for one in following if one.start == first), default=Span(comment.end, comment.end))
+    return following or Span(comment.end, comment.end)
 
 
 # --- what is wrong with them ---

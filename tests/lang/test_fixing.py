@@ -97,14 +97,14 @@ def test_a_round_that_makes_a_script_worse_is_taken_back() -> None:
 
 
 def test_of_a_round_that_makes_a_script_worse_the_good_edits_are_kept() -> None:
-    diagnose = replacing(("bad", "worse"), ("low", "LOW"), ("up", "UP"))
+    diagnose = replacing(("bad", "worse"), ("low", "above"), ("up", "down"))
 
     def judging(source: Source) -> tuple[Source, Sequence[Diagnostic]]:
         errors = [Diagnostic("MS021", "m", None)] * source.text.count("worse")
         return source, [*diagnose(source)[1], *errors]
 
     after = fixed("low bad up", judging)
-    assert (after.source.text, after.n_fixed) == ("LOW bad UP", 2)
+    assert (after.source.text, after.n_fixed) == ("above bad down", 2)
 
 
 def test_edits_that_undo_each_other_end() -> None:

@@ -67,6 +67,7 @@ def test_a_stretch_over_lines_is_underlined_in_each_without_its_indentation() ->
 
 def test_a_stretch_that_ends_with_its_line_goes_no_further() -> None:
     assert drawn("ab\ncd", (0, 3)) == ["ab", "^^"]
+    assert drawn("ab\ncd", (1, 2), ((0, 3), "all")) == ["ab", "-^ all"]
 
 
 def test_of_a_stretch_over_many_lines_the_first_two_and_the_last_are_drawn() -> None:
