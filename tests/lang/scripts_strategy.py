@@ -22,7 +22,7 @@ PLAIN = ("x", "y", "t", "min", "走", "GREET")
 UNITS = ("sec", "s", "second", "seconds", "ms", "min", "minute", "minutes", "frame", "frames", "cycle", "cycles")
 NUMBERS = ("1", "10", "05", "1.5", "2.50", "0.10", "007.0")
 SPACES = (" ", "   ", "\t", "\u00a0", " \ufeff")
-COMMENTS = ("#", "# a comment", "#walk }  ", "# (走) \t", '# "')
+COMMENTS = ("#", "# a comment", "#walk }  ", "# (走) \t", '# "', "# mlmg: ignore[MS020]")
 JOINED = frozenset({"with", "and", "or", "for", "once"})
 SIGNS = frozenset("(),=:")
 
