@@ -1,4 +1,4 @@
-"""A resolved plan -> its statements one after the other, as they are executed: repeated, and drawn where there is choice."""
+"""A resolved plan -> its statements in the order of execution: repeated, and drawn where there is a choice."""
 
 from __future__ import annotations
 

@@ -94,7 +94,7 @@ class MotionGraph:
 
     @cached_property
     def usual_oms(self) -> float:
-        """Return the median of the overall motion similarities of all pairs of different motions; 0 if there is none."""
+        """Return the median overall motion similarity of two different motions; 0 where there are not two."""
         of_pairs = self.oms[~np.eye(len(self.motions), dtype=bool)]
         return float(np.median(of_pairs)) if len(of_pairs) else 0.0
 
