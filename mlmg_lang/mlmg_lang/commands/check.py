@@ -19,6 +19,7 @@ examples:
 from __future__ import annotations
 
 import argparse
+import os
 import sys
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -27,7 +28,7 @@ from typing import TYPE_CHECKING, TextIO
 from mlmg_lang.commands.console import DONE, WRONG_CONTENT, WRONG_USAGE, UsageError, add_use_option, tell
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterator, Sequence
 
     from mlmg_lang.catalog import Catalog
     from mlmg_lang.diagnostics import Diagnostic
@@ -61,6 +62,7 @@ def run(arguments: argparse.Namespace) -> int:
         except OSError as error:
             failed = True
             tell(f"mlmg check: error: {error.filename or script}: {error.strerror or error}")
+    done = list(_once(done))
     if not task.diff:
         to_standard_error = task.fixes and "-" in arguments.scripts
         _write(done, arguments.format, sys.stderr if to_standard_error else sys.stdout)
@@ -204,6 +206,23 @@ def _show_changes(before: Source, after: Source) -> None:
 
 
 # --- what is said ----------------------------------------------------------------------------------------
+
+
+def _once(done: Sequence[_Checked]) -> Iterator[_Checked]:
+    """Yield scripts without what has been said already: a file that several use is looked at with each of them."""
+    said: set[tuple[object, ...]] = set()
+    for one in done:
+        new = {_identity(diagnostic, one.source): diagnostic for diagnostic in one.diagnostics}
+        yield replace(one, diagnostics=tuple(new[key] for key in new if key not in said))
+        said.update(new)
+
+
+def _identity(diagnostic: Diagnostic, source: Source) -> tuple[object, ...]:
+    """Return what two diagnostics have in common that say the same of the same place in a file."""
+    file, location = source, None
+    if diagnostic.span is not None:
+        file, location = source.file(diagnostic.span.start)[0], source.location(diagnostic.span)
+    return os.path.realpath(file.name), location, diagnostic.code, diagnostic.message
 
 
 def _write(done: Sequence[_Checked], form: str, stream: TextIO) -> None:

@@ -24,7 +24,7 @@ _CURLY: Final = frozenset("\u201c\u201d\u201e\u201f\u00ab\u00bb\u2018\u2019\u201
 
 def join_quoted(tokens: Sequence[Token], source: Source) -> Sequence[Token]:
     """Return tokens with those between printed quotes in a line as one name, which then is told of as one mistake."""
-    if not any(token.type == "NAME" and token.text[0] in _CURLY for token in tokens):
+    if not tokens or not any(sign in source.file(tokens[0].span.start)[0].text for sign in _CURLY):
         return tokens
     joined: list[Token] = []
     opened: int | None = None

@@ -103,6 +103,15 @@ def test_github_and_sarif_are_one_text_for_all_scripts(capsys: pytest.CaptureFix
     assert [result["ruleId"] for result in run["results"]] == ["MS011", "MS045"]
 
 
+def test_what_is_wrong_with_a_file_that_several_scripts_use_is_told_once(capsys: pytest.CaptureFixture[str]) -> None:
+    Path("more.ms").write_text("let STROLL = WALK for\n", encoding="utf-8")
+    for name in ("a.ms", "b.ms"):
+        Path(name).write_text('use "more.ms"\nTALK for 2 sec\n', encoding="utf-8")
+    for scripts in (["a.ms", "b.ms", "more.ms"], ["more.ms", "a.ms"], ["a.ms", "./a.ms"]):
+        assert mlmg.main(["check", "--format", "concise", *scripts]) == 1
+        assert [line.split(": ")[0] for line in capsys.readouterr().out.splitlines()] == ["more.ms:1:19"]
+
+
 # --- edits ---
 
 LIKELY = "WALK for 10\nWALK FOR 10 SEC\n"
