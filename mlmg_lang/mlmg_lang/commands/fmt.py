@@ -63,6 +63,8 @@ def run(arguments: argparse.Namespace) -> int:
                 _show(rewriting, arguments.diff)
             else:
                 _write(rewriting)
+        except BrokenPipeError:
+            raise
         except OSError as error:
             tally.refused(error, script)
         else:

@@ -213,6 +213,17 @@ def test_check_of_standard_input_writes_its_name_alone(typed: Callable[[bytes], 
     assert capsys.readouterr() == ("<stdin>\n", "")
 
 
+def test_nobody_reading_the_changes_is_no_trouble_of_a_script(here: Path) -> None:
+    Path("a.ms").write_text("WALK;IDLE\n" * 20_000, encoding="utf-8")
+    command = [sys.executable, "-m", "mlmg_lang.commands.mlmg", "fmt", "--diff", "a.ms"]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as running:
+        assert running.stdout is not None
+        assert running.stderr is not None
+        running.stdout.close()
+        told = running.stderr.read()
+    assert (running.returncode, told) == (141, b"")
+
+
 def test_in_a_pipe_the_bytes_are_those_of_the_form() -> None:
     command = [sys.executable, "-m", "mlmg_lang.commands.mlmg", "fmt", "-"]
     done = subprocess.run(command, input=WRITTEN.replace("\n", "\r\n").encode(), capture_output=True, check=True)
