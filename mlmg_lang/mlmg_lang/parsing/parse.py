@@ -4,15 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 from mlmg_lang.diagnostics import Diagnostic
 from mlmg_lang.parsing import syntax
 from mlmg_lang.parsing.layout import MAX_DEPTH, Block, Line, lay_out
 from mlmg_lang.parsing.lexical import check_tokens, join_quoted
 from mlmg_lang.parsing.line_parser import Stuck, read
-from mlmg_lang.parsing.mistakes import Mistake, explain
 from mlmg_lang.parsing.tokens import Token
 from mlmg_lang.source import Source, Span
+
+if TYPE_CHECKING:
+    from mlmg_lang.parsing.mistakes import Mistake
 
 MAX_MISTAKES = 200
 """After so many a text is no script; reading what is left would take long and help nobody."""
@@ -137,6 +140,9 @@ class _Reader:
         return outcome
 
     def _explained(self, stuck: Stuck) -> Mistake:
+        # Most scripts have no such mistake, and these modules take as long to import as a small script to parse.
+        from mlmg_lang.parsing.mistakes import Mistake, explain
+
         if len(stuck.tokens) > _MAX_MENDED:
             message = "something does not fit here, in a statement too long to look into"
             return Mistake(Diagnostic("MS010", message, stuck.span))
