@@ -17,7 +17,6 @@ from mlmg_lang.parsing import syntax
 from mlmg_lang.perform import rehearse
 from mlmg_lang.planning import flow, resolved, typed
 from mlmg_lang.planning.ahead import plan_ahead
-from mlmg_lang.planning.course import driver
 from mlmg_lang.planning.estimate import NO_TIME, Estimate
 from mlmg_lang.planning.forecast import Forecast, Outcome, Passage, chances_of, forecast
 from mlmg_lang.planning.names import Names
@@ -247,11 +246,14 @@ class _Explainer:
                 continue
             chances = dict.fromkeys(self._motions(part), 0.0)
             for world, chance in outlook.items():
-                motion = driver(world, graph, self._names)[1].motion
-                chances[motion] = chances.get(motion, 0.0) + chance
-            likely = tuple(told.Likely(motion, round(chance, 3)) for motion, chance in chances.items())
-            runs = sum(chance for world, chance in outlook.items() if world.get(graph) is not None)
-            parts.append(told.Part(graph, likely, round(runs, 3)))
+                playing = world.get(graph)
+                if playing is not None:
+                    chances[playing.motion] = chances.get(playing.motion, 0.0) + chance
+            runs = round(sum(chances.values()), 3)
+            likely = (told.Likely(motion, round(chance, 3)) for motion, chance in chances.items())
+            # Where it may follow the graph above, those that it plays with that are among the others.
+            known = tuple(one for one in likely if one.chance > 0 or runs in (0.0, 1.0))
+            parts.append(told.Part(graph, known, runs))
         return tuple(parts)
 
     def _motions(self, part: flow.Part) -> list[str]:

@@ -148,12 +148,12 @@ class Likely:
 
 @dataclass(frozen=True, slots=True)
 class Part:
-    """What may drive a graph before a statement.
+    """What may be playing on a graph before a statement.
 
     Attributes
     ----------
-    motions : its own or, while it follows the graph above, that one's.
-    runs : the chance that it runs on its own.
+    motions : with the chances that it plays them on its own; those without a chance are not impossible.
+    runs : the chance that it runs on its own; else it follows the graph above.
     """
 
     graph: str

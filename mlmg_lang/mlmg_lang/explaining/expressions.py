@@ -103,8 +103,14 @@ class _Describer:
     def _shared(self, motion: syntax.And, room: Room, layers: Sequence[typed.Layer]) -> Shared:
         by = {part.span: _graph_by(part) for part in flattened(motion)}
         operands = tuple(self._given(layer, by.get(layer.span, "search")) for layer in layers)
-        passed = self._passed_over(motion, room.allowed(self.names))
+        passed = self._passed_over(motion, self._tried(motion, room))
         return Shared(*self._texts(motion.span), _assigned(layers), operands, passed, self.refused)
+
+    def _tried(self, motion: syntax.And, room: Room) -> tuple[str, ...]:
+        """Return the graphs on which an `and` was looked for whole: none, if its parts name different ones."""
+        named = {self.names.graph(name.text) for name in _graph_names(motion) if not is_sub(name)}
+        allowed = room.allowed(self.names)
+        return tuple(graph for graph in allowed if named in ({graph}, set()))
 
     def _given(self, layer: typed.Layer, by: str) -> OnGraph:
         """Return what a graph has been given of an `and`."""

@@ -123,7 +123,7 @@ def _statement(one: Statement) -> Tree:
             children = [*_before(one.before), *ends, *_executions(one.executions, one.arrives)]
             return _numbered(one.place.line, one.text, children)
         case Repeat():
-            text = f"repeat {one.count}, {seconds(one.once_through)} each time"
+            text = f"repeat {one.count}" + (f", {seconds(one.once_through)} each time" if one.count else "")
             return _numbered(one.place.line, text, map(_statement, one.body))
         case Choose():
             return _numbered(one.place.line, "choose", map(_branch, one.branches))
@@ -156,6 +156,8 @@ def _use(use: Use) -> Tree:
 
 
 def _before(parts: Sequence[Part]) -> list[Tree]:
+    if not any(part.runs for part in parts):
+        return [Tree("before", "never executed", style=(BLUE,))]
     told = [f"{part.graph} {_plays(part)}" for part in parts]
     return [Tree("before", "; ".join(told), style=(BLUE,))]
 
@@ -164,7 +166,7 @@ def _plays(part: Part) -> str:
     likely = _chances(part.motions)
     if part.runs >= 1.0:
         return f"plays {likely}"
-    return f"plays {likely}, on its own in {share(part.runs)}" if part.runs else "follows the graph above"
+    return f"plays {likely} on its own, else follows" if part.runs else "follows the graph above"
 
 
 def _chances(motions: Sequence[Likely]) -> str:
@@ -285,8 +287,8 @@ def _staying(layer: Layer) -> Iterator[str]:
 def _only(layer: Layer) -> str:
     """Return what there is to say of the only candidate."""
     one = layer.candidates[0]
-    _, motion, oms, takes, cost, _ = _row(0, one, _oms_of(layer).get(one.motion, ""))
-    return ", ".join(part for part in (motion, takes, cost, oms) if part)
+    _, motion, oms, takes, cost, _, way = _row(0, one, _oms_of(layer).get(one.motion, ""))
+    return ", ".join(part for part in (motion, takes, cost, oms, way) if part)
 
 
 def _source(layer: Layer, graph: str, motion: str, chance: float) -> str:
@@ -321,9 +323,9 @@ def _row(number: int, one: Candidate, fits: str) -> tuple[str, ...]:
     takes = "" if one.takes is None else seconds(one.takes)
     cost = "" if one.cost is None else f"cost {one.cost:.2f}"
     taken = "taken" if one.chance >= 1.0 else f"taken in {share(one.chance)}" if one.chance > 0 else ""
-    if one.on_the_spot:
-        taken += ", by a blend on the spot"
-    return f"{number}.", one.motion, fits, takes, cost, taken
+    chance = "" if one.on_the_spot >= 1.0 else f"in {share(one.on_the_spot)} "
+    way = f"{chance}by a blend on the spot" if one.on_the_spot else ""
+    return f"{number}.", one.motion, fits, takes, cost, taken, way
 
 
 def _told_apart(layer: Layer) -> Sequence[Ranking]:

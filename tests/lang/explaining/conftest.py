@@ -41,7 +41,7 @@ UPPER_BODY = {
     "Talk_01": ("TALK", "IDLE"),
     "Talk_02": ("TALK",),
 }
-LEFT_HAND = {**UPPER_BODY, "Wave_01": ("WAVE",)}
+LEFT_HAND = {**UPPER_BODY, "Idle_02": ("IDLE",), "Wave_01": ("WAVE",)}
 
 
 def made_graph(name: str, parent: str | None, tags: dict[str, tuple[str, ...]], number: int) -> MotionGraph:

@@ -132,6 +132,11 @@ def test_once_enters_a_motion_that_is_played_already(reference, said):
     assert course.world.get(ROOT) == Playing("Walk_01", Moment.BEGUN)
 
 
+def test_a_part_that_follows_enters_a_motion_once_all_the_same(reference, said):
+    course = only("Upper-Body Talk_01 once", world((ROOT, "Talk_01")), reference, said())
+    assert legs(course) == [(UPPER, "moves", "Talk_01")]
+
+
 def test_where_a_command_cannot_be_obeyed_there_is_no_course(reference, said):
     every = said({("Idle_01", motion): None for motion in reference.motions(ROOT)})
     assert bring(world((ROOT, "Idle_01")), command("WALK", reference), Names(reference), every) == ()
