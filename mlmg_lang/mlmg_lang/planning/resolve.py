@@ -201,8 +201,13 @@ class _Resolver:
         return next((head for head in heads if self._before(head) != self.entered[head]), number + 1)
 
     def _back_to(self, number: int) -> int:
-        """Return the step to begin again with when one has to be taken otherwise, and forget all from there."""
-        first = self.steps[number].outermost
+        """Return the step to begin again with when one has to be taken otherwise, and forget all from there.
+
+        That is the step itself, unless a loop around it has come round already: then it is where the outermost begins.
+        """
+        reached = [step for step in range(number, len(self.steps)) if self.left[step] is not None]
+        came_round = any(head < number for step in reached for head in self.steps[step].again)
+        first = self.steps[number].outermost if came_round else number
         for later in range(first, len(self.steps)):
             if self.entered[later] is None:
                 break
