@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum
 from typing import TypeAlias
@@ -34,7 +34,7 @@ class Signature:
 
 def signatures(lets: Mapping[str, syntax.Let]) -> tuple[dict[str, Signature], tuple[Diagnostic, ...]]:
     """Return the signatures of the definitions that have no mistake in this respect, and what is wrong with others."""
-    circles = dict(_circles(lets))
+    circles = _circles(lets)
     reader = _Reader(lets, circles)
     each_once = {frozenset(circle): name for name, circle in reversed(circles.items())}
     reader.diagnostics += [_in_circle(lets[name], circles[name], lets) for name in reversed(each_once.values())]
@@ -55,13 +55,14 @@ def references(let: syntax.Let) -> Iterator[syntax.Name]:
 # --- circles ---------------------------------------------------------------------------------------------
 
 
-def _circles(lets: Mapping[str, syntax.Let]) -> Iterator[tuple[str, tuple[str, ...]]]:
-    """Yield each definition that leads to itself, with the names on the shortest way round."""
+def _circles(lets: Mapping[str, syntax.Let]) -> dict[str, tuple[str, ...]]:
+    """Return the definitions that lead to themselves, each with the names on a short way round."""
     onward = {name: _onward(let, lets) for name, let in lets.items()}
+    found: dict[str, tuple[str, ...]] = {}
     for name in _on_circles(onward):
-        way = _way_round(name, onward)
-        if way:
-            yield name, way
+        way = () if name in found else _way_round(name, onward)
+        found.update((other, way) for other in way if other not in found)
+    return found
 
 
 def _onward(let: syntax.Let, lets: Mapping[str, syntax.Let]) -> tuple[str, ...]:
@@ -69,19 +70,25 @@ def _onward(let: syntax.Let, lets: Mapping[str, syntax.Let]) -> tuple[str, ...]:
 
 
 def _on_circles(onward: Mapping[str, tuple[str, ...]]) -> list[str]:
-    """Return the names that may be on a circle: what is left after those that lead nowhere are taken away."""
+    """Return the names that may be on a circle: what is left without those that lead nowhere, or that none leads to."""
     users: dict[str, list[str]] = {name: [] for name in onward}
     for name, others in onward.items():
         for other in others:
             users[other].append(name)
+    loose = _peeled(onward, users) | _peeled(users, onward)
+    return [name for name in onward if name not in loose]
+
+
+def _peeled(onward: Mapping[str, Sequence[str]], users: Mapping[str, Sequence[str]]) -> set[str]:
+    """Return the names that lead nowhere, those that lead to such alone, and so on."""
     left = {name: len(others) for name, others in onward.items()}
     done = [name for name, count in left.items() if count == 0]
-    while done:
-        for user in users[done.pop()]:
+    for name in done:
+        for user in users[name]:
             left[user] -= 1
             if left[user] == 0:
                 done.append(user)
-    return [name for name, count in left.items() if count > 0]
+    return set(done)
 
 
 def _way_round(name: str, onward: Mapping[str, tuple[str, ...]]) -> tuple[str, ...]:
