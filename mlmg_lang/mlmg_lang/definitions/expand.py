@@ -19,6 +19,8 @@ from mlmg_lang.spelling import listed, nearest, normal
 
 MAX_NODES = 20_000
 """So large may one command become."""
+MAX_ALL_NODES = 200_000
+"""So large may all commands of a script become together in which something is defined."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -89,6 +91,7 @@ class _Expander:
     definitions: Definitions
     diagnostics: list[Diagnostic] = field(default_factory=list)
     nodes: int = 0
+    all_nodes: int = 0
     deepest: int = 0
     command: Span = field(default_factory=lambda: Span(0, 0))
 
@@ -111,12 +114,21 @@ class _Expander:
         self.nodes, self.command = 0, command.span
         try:
             whole = self._whole(command)
-            if whole is not None:
-                return whole
-            motion = self._motion(command.motion, {}, 0)
+            motion = self._motion(command.motion, {}, 0) if whole is None else whole.motion
         except _Failed:
             return syntax.Broken(command.span)
-        return command if motion is command.motion else replace(command, motion=motion)
+        if motion is command.motion:
+            return command
+        self._count_all()
+        return whole or replace(command, motion=motion)
+
+    def _count_all(self) -> None:
+        """Count what has been put into a command; say it once when that has become too much for a script."""
+        before = self.all_nodes
+        self.all_nodes += self.nodes
+        if before <= MAX_ALL_NODES < self.all_nodes:
+            message = "with this, the script becomes too large when what is defined is put in"
+            self._fail(Diagnostic("MS048", message, self.command, "leave some of it to another script"))
 
     def _whole(self, command: syntax.Command) -> syntax.Command | None:
         """Return what a command does that is nothing but the use of a definition that says how long."""
@@ -240,6 +252,8 @@ class _Expander:
         depth: int,
     ) -> dict[str, _Value]:
         """Return what the parameters of a definition stand for in one use of it."""
+        if self.all_nodes > MAX_ALL_NODES:
+            raise _Failed
         arguments = use.arguments if isinstance(use, syntax.Call) else ()
         given = self._given(use, let, arguments)
         values: dict[str, _Value] = {}
