@@ -81,6 +81,8 @@ class _Chart:
         return ends
 
     def _choose(self, choose: Choose, before: list[_Exit]) -> list[_Exit]:
+        if not choose.branches:
+            return before
         self._open("choose")
         first = self.box([f"line {choose.place.line}", "draw one"], "{", "}")
         ends = []

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import types
+from collections.abc import Sequence
 from dataclasses import fields, is_dataclass
 from functools import cache
 from typing import Any, Final, Literal, Union, get_args, get_origin, get_type_hints
@@ -59,20 +60,27 @@ def _hints(made: type) -> dict[str, Any]:
 def _read(hint: Any, value: Any, where: str) -> Any:
     """Return a value of a type from plain JSON data."""
     if hint is Estimate:
-        mean, least, most = _checked(list, value, where)
-        return Estimate(mean, least, most)
+        return Estimate(*_many([float] * 3, value, where))
     if isinstance(hint, type) and is_dataclass(hint):
         return _object(hint, _checked(dict, value, where), where)
     origin, inner = get_origin(hint), get_args(hint)
     if origin in (Union, types.UnionType):
         return _either(inner, value, where)
     if origin is tuple:
-        many = _checked(list, value, where)
-        hints = [inner[0]] * len(many) if inner[-1] is Ellipsis else inner
-        return tuple(_read(one, part, f"{where}[{at}]") for at, (one, part) in enumerate(zip(hints, many, strict=True)))
+        if inner[-1] is Ellipsis:
+            inner = (inner[0],) * len(_checked(list, value, where))
+        return _many(inner, value, where)
     if hint is float:
         return float(_checked((int, float), value, where))
     return _checked(hint, value, where)
+
+
+def _many(hints: Sequence[Any], value: Any, where: str) -> tuple[Any, ...]:
+    """Return values of some types from a list of as many."""
+    many = _checked(list, value, where)
+    if len(many) != len(hints):
+        raise ValueError(f"{where}: expected {len(hints)} values, found {len(many)}")
+    return tuple(_read(hint, one, f"{where}[{at}]") for at, (hint, one) in enumerate(zip(hints, many, strict=True)))
 
 
 def _either(hints: tuple[Any, ...], value: Any, where: str) -> Any:

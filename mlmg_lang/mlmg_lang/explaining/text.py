@@ -175,7 +175,7 @@ def _chances(motions: Sequence[Likely]) -> str:
     others = [one.motion for one in motions if one.chance == 0]
     certain = len(known) == 1 and known[0].chance >= 1.0
     told = known[0].motion if certain else ", ".join(f"{one.motion} ({share(one.chance)})" for one in known)
-    return f"{told}, less likely {joined(others, 'or')}" if others else told
+    return f"{told}, less likely {_listed(others, 'or')}" if others else told
 
 
 def _arrival(command: Command) -> str:
@@ -209,7 +209,7 @@ def _expression(expression: Expression) -> Tree:
         case Shared():
             why = _passed(expression.passed_over)
             refused = (
-                Tree("not over", f"{joined(one.graphs)}: {one.because}", style=(_DIM,)) for one in expression.refused
+                Tree("not over", f"{_listed(one.graphs)}: {one.because}", style=(_DIM,)) for one in expression.refused
             )
             return _assignment("and, shared out", expression, (*why, *refused, *map(_expression, expression.operands)))
         case OnGraph():
@@ -220,7 +220,7 @@ def _expression(expression: Expression) -> Tree:
 
 
 def _assignment(label: str, expression: With | Shared, children: Iterable[Tree]) -> Tree:
-    graphs = joined([one.graph for one in expression.assigned])
+    graphs = _listed([one.graph for one in expression.assigned])
     return Tree(label, f"an assignment to {graphs}", tuple(children), (BLUE,))
 
 
@@ -229,7 +229,7 @@ def _passed(every: Sequence[PassedOver]) -> Iterator[Tree]:
     for one in every:
         by.setdefault(one.because, []).append(one.graph)
     for because, graphs in by.items():
-        yield Tree(f"not on {joined(graphs, 'or')}", because, style=(_DIM,))
+        yield Tree(f"not on {_listed(graphs, 'or')}", because, style=(_DIM,))
 
 
 def _set(expression: SetExpression) -> Tree:
@@ -275,8 +275,8 @@ def _staying(layer: Layer) -> Iterator[str]:
     kept = [one.motion for one in layer.candidates if one.chance > 0]
     others = [one.motion for one in layer.candidates if one.chance == 0]
     if layer.stays >= 1.0:
-        instead = f"; {joined(others, 'or')} would do too" if others else ""
-        yield f"stays in {joined(kept, 'or')}, which it is to play{instead}"
+        instead = f"; {_listed(others, 'or')} would do too" if others else ""
+        yield f"stays in {_listed(kept, 'or')}, which it is to play{instead}"
     elif layer.stays:
         yield f"stays as it is in {share(layer.stays)}, as it plays a candidate"
     if layer.follows:
@@ -343,7 +343,7 @@ def _left_out(layer: Layer) -> Iterator[Tree]:
     for one in layer.left_out:
         by.setdefault((one.reason, one.because), []).append(one.motion)
     for (reason, because), motions in by.items():
-        yield Tree("left out", f"{joined(motions)}, by {_reason(reason)}: {because}", style=(_DIM,))
+        yield Tree("left out", f"{_listed(motions)}, by {_reason(reason)}: {because}", style=(_DIM,))
 
 
 def _reason(reason: str) -> str:
@@ -398,4 +398,8 @@ def _oms(oms: float) -> str:
 
 
 def _number(number: float | None) -> str:
-    return f"{number:g}"
+    return f"{number or 0.0:g}"
+
+
+def _listed(names: Sequence[str], last: str = "and") -> str:
+    return joined(names, last) if names else "nothing"

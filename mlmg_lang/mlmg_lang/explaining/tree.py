@@ -43,11 +43,10 @@ def _lines(tree: Tree, width: int, paint: Painter, first: str, others: str) -> I
         yield first + painted if at == 0 else others + stem + painted
         # What is broken at a space goes on without it.
         left -= len(line) + 1
-    for child in tree.children:
-        is_last = child is tree.children[-1]
-        yield from _lines(
-            child, width, paint, others + ("└─ " if is_last else "├─ "), others + ("   " if is_last else "│  ")
-        )
+    for number, child in enumerate(tree.children, 1):
+        is_last = number == len(tree.children)
+        branch, beside = ("└─ ", "   ") if is_last else ("├─ ", "│  ")
+        yield from _lines(child, width, paint, others + branch, others + beside)
 
 
 def _wrapped(text: str, width: int) -> Iterator[str]:

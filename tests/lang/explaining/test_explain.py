@@ -1,0 +1,240 @@
+"""What an explanation knows: how words were understood, what is in question, what is expected."""
+
+from __future__ import annotations
+
+import pytest
+
+from mlmg_lang.explaining.explain import explanation_from_analysis
+from mlmg_lang.explaining.explanation import Command
+from mlmg_lang.front_end import analyse
+from mlmg_lang.script_files import used_files
+from mlmg_lang.source import Source
+
+ROOT, UPPER, HAND = "Full-Body", "Upper-Body", "Left-Hand"
+
+
+@pytest.fixture
+def last(explained):
+    """Return a function: script -> its last statement, explained."""
+    return lambda text, **options: explained(text, **options).statements[-1]
+
+
+def test_a_script_with_errors_has_no_explanation(made_library):
+    with pytest.raises(ValueError, match="has errors"):
+        explanation_from_analysis(analyse(Source("WLAK"), made_library), made_library)
+
+
+@pytest.mark.parametrize(
+    ("script", "start", "expected"),
+    [
+        ("WALK", None, ("Idle_01", "the start of the library")),
+        ("Walk_02 for 1 sec", None, ("Walk_02", "which the script names first")),
+        ("Walk_02 for 1 sec", "Talk_01", ("Talk_01", "as --start says")),
+    ],
+)
+def test_where_the_character_starts_is_told_with_the_reason(script, start, expected, explained):
+    told = explained(script, start=start)
+    assert (told.start, told.start_because) == expected
+
+
+def test_every_statement_knows_its_place(explained, flat):
+    script = "# x\nIdle_01\nrepeat 2 { wait 1 sec; end Upper-Body }\nchoose { WALK | }"
+    told = explained(script)
+    spans = {one.kind: one.place.span for one in flat(told)}
+    assert spans["repeat"] == (3, 1, 3, 40)
+    assert spans["wait"] == (3, 12, 3, 22)
+    assert spans["end"] == (3, 24, 3, 38)
+    assert spans["choose"] == (4, 1, 4, 18)
+    assert {one.place.file for one in flat(told)} == {"script.ms"}
+
+
+def test_a_graph_without_a_match_is_passed_over(last):
+    expression = last("Idle_01\nSWING_HAND").expression
+    assert (expression.expression.graph, expression.graph_by) == (UPPER, "search")
+    assert [(one.graph, one.because) for one in expression.passed_over] == [(ROOT, "there is no `SWING_HAND`")]
+
+
+def test_a_graph_that_is_named_is_the_only_one_looked_at(last):
+    expression = last("Left-Hand WAVE").expression
+    assert (expression.graph_by, expression.passed_over) == ("name", ())
+    assert last("WALK with Sub TALK").expression.operands[1].graph_by == "Sub"
+
+
+def test_below_with_only_the_graphs_that_are_left_are_looked_at(last):
+    operand = last("Walk_01 with Upper-Body TALK with WAVE").expression.operands[2]
+    assert (operand.expression.graph, operand.passed_over) == (HAND, ())
+    operand = last("Walk_01 with WAVE").expression.operands[1]
+    assert [one.graph for one in operand.passed_over] == [UPPER]
+
+
+def test_an_and_that_one_graph_fits_is_one_set(last):
+    expression = last("TALK and IDLE").expression
+    assert (expression.kind, expression.expression.word) == ("set", "and")
+    assert expression.expression.motions == ("Talk_01",)
+    assert [one.name for one in expression.expression.operands] == ["TALK", "IDLE"]
+
+
+def test_an_and_that_no_graph_fits_is_shared_out(last):
+    expression = last("WALK and TALK").expression
+    assert expression.kind == "shared and"
+    assert [(one.graph, one.motions[0]) for one in expression.assigned] == [(ROOT, "Walk_01"), (UPPER, "Talk_01")]
+    assert [one.graph_by for one in expression.operands] == ["sharing", "sharing"]
+    assert [one.graph for one in expression.passed_over] == [ROOT, UPPER, HAND]
+
+
+def test_a_way_to_share_out_that_rule_1_forbids_is_told(last):
+    (refused,) = last("Idle_02 and SWING_HAND").expression.refused
+    assert refused.graphs == (ROOT, UPPER)
+    assert refused.because == "`Upper-Body` cannot leave `Idle_02` (rule 1)"
+
+
+def test_three_operands_may_share_two_graphs(last):
+    expression = last("WALK and TALK and IDLE").expression
+    assert [one.graph for one in expression.assigned] == [ROOT, UPPER]
+    both = expression.operands[1].expression
+    assert (both.kind, [one.name for one in both.operands]) == ("set operator", ["TALK", "IDLE"])
+
+
+def test_uses_of_definitions_are_told_with_those_that_these_use_each_once(last):
+    script = "let A = B with Upper-Body TALK\nlet B = C or C\nlet C = WALK\nA for 1 sec"
+    assert [(use.name, use.place.line) for use in last(script).uses] == [("A", 1), ("B", 2), ("C", 3)]
+
+
+def test_a_definition_of_another_file_is_told_with_that(made_library, tmp_path):
+    (tmp_path / "gestures.ms").write_text("\n\nlet GREET = WALK with Upper-Body TALK\n", encoding="utf-8")
+    script = tmp_path / "script.ms"
+    analysis = analyse(Source('use "gestures.ms"\nGREET', str(script)), made_library, files=used_files(script))
+    told = explanation_from_analysis(analysis, made_library)
+    (command,) = told.statements
+    assert isinstance(command, Command)
+    (use,) = command.uses
+    assert (use.place.file, use.place.line) == (str(tmp_path / "gestures.ms"), 3)
+    assert command.expression.place.file == str(tmp_path / "gestures.ms"), "what it says stands there"
+    assert command.place.file == str(script)
+
+
+def test_what_is_left_out_is_told_with_the_reason(explained):
+    told = explained("IDLE for 1 sec\nUpper-Body TALK")
+    (left_out,) = told.statements[0].layers[0].left_out
+    assert (left_out.motion, left_out.reason) == ("Idle_02", "later command")
+    assert "line 2" in left_out.because
+    (left_out,) = explained("IDLE with Upper-Body TALK").statements[0].layers[0].left_out
+    assert (left_out.motion, left_out.reason) == ("Idle_02", "rule 1")
+
+
+def test_candidates_of_the_root_stand_in_the_order_in_which_they_are_reached(last):
+    layer = last("Idle_01 for 2 sec\nWALK").layers[0]
+    assert layer.rule == "soonest"
+    times = [one.takes.mean for one in layer.candidates]
+    assert times == sorted(times)
+    assert [one.chance for one in layer.candidates] == [1.0, 0.0, 0.0]
+
+
+def test_candidates_of_a_part_stand_in_the_order_in_which_they_fit(last, made_library):
+    layer = last("Walk_03\nUpper-Body (IDLE or TALK)").layers[0]
+    assert (layer.rule, layer.rankings[0].above) == ("best fit", "Walk_03")
+    graph = made_library.by_name[UPPER]
+    oms = [float(graph.oms[graph.index["Walk_03"], graph.index[one.motion]]) for one in layer.candidates]
+    assert oms == sorted(oms)
+    assert [fit.oms for fit in layer.rankings[0].fits] == oms
+    assert layer.candidates[0].chance == 1.0
+
+
+def test_what_plays_a_candidate_stays_and_needs_no_time(last):
+    command = last("Walk_01 for 1 sec\nWALK for 1 sec")
+    layer = command.layers[0]
+    assert (layer.stays, layer.sources, command.arrives.most) == (1.0, (), 0.0)
+    first = layer.candidates[0]
+    assert (first.motion, first.chance, first.takes) == ("Walk_01", 1.0, None)
+
+
+def test_what_is_ended_is_told_with_the_reason(last):
+    (ending,) = last("Walk_01 with Upper-Body TALK for 1 sec\nWALK").ends
+    assert (ending.graph, ending.chance, ending.because) == (UPPER, 1.0, "the command does not name it")
+    assert 0 < ending.takes.mean <= 2.0 + 10 / 30
+    (ending,) = last("Walk_01 with Upper-Body TALK for 1 sec\nIDLE with Upper-Body TALK").ends
+    assert ending.because == "`Full-Body` changes its motion"
+
+
+def test_what_plays_before_is_told_with_its_chances(last):
+    before = last("Walk_01\nchoose { 3: Upper-Body TALK for 1 sec | Talk_02 }\nIDLE").before
+    root, upper = before
+    assert {one.motion: one.chance for one in root.motions} == {"Walk_01": 0.75, "Talk_02": 0.25}
+    assert (upper.graph, upper.runs, upper.motions[0].motion) == (UPPER, 0.75, "Talk_01")
+
+
+def test_the_last_command_plays_to_its_last_frame(explained):
+    told = explained("Walk_01\nTalk_01")
+    assert [one.duration.unit for one in told.statements] == ["none", "to the end"]
+    assert told.statements[1].lasts.mean > 0
+    whole = sum(one.arrives.mean + one.lasts.mean for one in told.statements)
+    assert told.totals.takes.mean == pytest.approx(whole, abs=0.01)
+
+
+def test_planning_over_the_whole_script_tells_what_it_gains(explained, made_library):
+    script = "Idle_01 for 1 sec\nWALK for 1 sec\nIDLE for 1 sec\nWALK for 1 sec\nTALK for 2 sec\nIDLE for 1 sec"
+    greedy, ahead = explained(script), explained(script, look_ahead=True)
+    assert (greedy.plan, greedy.gain, ahead.plan) == ("greedy", None, "global")
+    assert ahead.gain is not None
+    assert ahead.gain.planned
+    assert ahead.gain.greedy == greedy.totals
+    assert ahead.totals.under_way + ahead.totals.cost < greedy.totals.under_way + greedy.totals.cost
+    assert all(len(one.layers[0].candidates) == 1 for one in ahead.statements)
+
+
+def test_where_it_cannot_plan_over_the_whole_script_it_says_so(explained):
+    told = explained("Idle_01\nrepeat 2 { WALK }", look_ahead=True)
+    assert told.gain is not None
+    assert not told.gain.planned
+    assert "repeats" in told.gain.because
+
+
+def test_what_happened_stands_beside_what_was_expected(explained, demo_library):
+    script = "Idle_01 for 1 sec\nWALK with Upper-Body TALK for 1 sec\nend Upper-Body\nrepeat 2 { wait 1 sec }\nIDLE"
+    told = explained(script, demo_library, seed=0)
+    first, walk, end, loop, idle = told.statements
+    (wait,) = loop.body
+    assert [len(one.executions) for one in (first, walk, end, wait, idle)] == [1, 1, 1, 2, 1]
+    (went,) = walk.executions
+    assert went.begin_s == 1.0
+    assert walk.arrives.least <= went.arrived_s <= walk.arrives.most
+    assert [one.graph for one in went.taken] == [ROOT, UPPER]
+    assert went.cost == pytest.approx(sum(event.cost for event in went.events), abs=0.002)
+    assert {event.graph for event in went.events} == {ROOT, UPPER}
+    (went,) = end.executions
+    assert {event.graph for event in went.events} <= {UPPER}
+    assert told.played is not None
+    ends = idle.executions[0].begin_s + idle.executions[0].arrived_s + idle.executions[0].lasted_s
+    assert told.played.seconds == pytest.approx(ends, abs=0.002)
+    assert told.played.under_way == pytest.approx(
+        sum(went.arrived_s for one in (first, walk, end, idle) for went in one.executions), abs=0.005
+    )
+
+
+def test_loops_in_which_a_motion_is_held_are_no_events_of_a_command(explained, demo_library):
+    told = explained("Idle_01 for 30 sec\nIDLE with Upper-Body TALK for 20 sec", demo_library, seed=0)
+    first, second = told.statements
+    assert first.executions[0].events == ()
+    assert {event.graph for event in second.executions[0].events} == {UPPER}
+
+
+def test_where_only_the_root_moves_from_the_start_the_estimate_is_what_happens(explained, demo_library):
+    script = "Idle_01 for 2 sec\nWALK for 2 sec"
+    told = explained(script, demo_library, seed=0)
+    walk = told.statements[1]
+    assert walk.arrives.mean == walk.executions[0].arrived_s
+    assert walk.cost == walk.executions[0].cost
+    assert [one.motion for one in walk.layers[0].candidates if one.chance] == [
+        one.motion for one in walk.executions[0].taken
+    ]
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_estimates_are_near_what_happens_on_the_demo_library(explained, demo_library, seed):
+    script = (
+        "Idle_01 for 3 sec\nWALK for 5 sec\nWALK with Upper-Body TALK for 6 sec\nIDLE for 2 sec\n"
+        "choose { Music for 4 sec | Talk_02 for 4 sec | WALK and TALK for 2 sec }\nIDLE for 1 sec"
+    )
+    told = explained(script, demo_library, seed=seed)
+    assert told.played is not None
+    assert told.totals.takes.least * 0.9 <= told.played.seconds <= told.totals.takes.most * 1.1
