@@ -111,7 +111,8 @@ def _candidate(motion: str, graph: str, legs: _Legs, travel: Travel, to_begin: b
     for chance, leg in legs:
         if leg.kind is Kind.MOVES:
             found = travel.soonest(graph, leg.playing, (motion,), leg.driver, to_begin)
-            ways += [(chance, trip) for trip in found]
+            blended = (travel.on_the_spot(graph, motion),) if to_begin else ()
+            ways += [(chance, trip) for trip in found or blended]
     total = sum(chance for chance, _ in ways)
     if not total:
         return told.Candidate(motion, _thousandths(taken), None, None, 0.0)

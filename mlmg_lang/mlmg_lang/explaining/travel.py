@@ -95,6 +95,10 @@ class MotionTravel:
             self._trips[key] = tuple(self._soonest(graph, playing, candidates, driver, to_begin))
         return self._trips[key]
 
+    def on_the_spot(self, graph: str, motion: str) -> Trip:
+        """Return how a motion is blended into where it begins, as is done where no way leads there."""
+        return Trip(motion, 1.0, exactly(self.library.by_name[graph].window / self.library.frame_rate), 0.0, 1.0)
+
     def back(self, graph: str, playing: Playing, driver: str, above: Playing) -> Trip:
         """Return how a part comes back to what `driver`, a graph above it, plays."""
         key = (graph, playing, driver, above)
@@ -139,8 +143,6 @@ class MotionTravel:
         best = ways[first, np.arange(len(first))]
         known = np.isfinite(best.real)
         total = places.shares[known].sum()
-        if total == 0 and to_begin:
-            yield Trip(candidates[0], 1.0, self._seconds(own.window), 0.0, 1.0)
         for at, candidate in enumerate(candidates):
             won = known & (first == at)
             if won.any():
@@ -287,9 +289,6 @@ class MotionTravel:
         return clips
 
     # --- numbers ---
-
-    def _seconds(self, n_frames: float) -> Estimate:
-        return exactly(n_frames / self.library.frame_rate)
 
     def _estimate(self, n_frames: FloatArray, shares: FloatArray) -> Estimate:
         seconds = n_frames / self.library.frame_rate

@@ -11,7 +11,7 @@ from enum import StrEnum
 from itertools import product
 from math import prod
 
-from mlmg_lang.planning.estimate import NO_TIME, Estimate, Moment, Playing, Travel, together
+from mlmg_lang.planning.estimate import NO_TIME, Estimate, Moment, Playing, Travel, Trip, together
 from mlmg_lang.planning.names import Names
 from mlmg_lang.planning.resolved import Command, Once
 
@@ -171,25 +171,26 @@ class _Mover:
 
     def _options(self, world: World, graph: str, candidates: tuple[str, ...]) -> list[tuple[float, Leg]]:
         """Return the ways into one of the candidates that may be taken; none if there is none."""
-        drives, playing = driver(world, graph, self.names)
         leg = self._leg(world, graph, Kind.MOVES)
-        for choice in self._choices(world, graph, candidates):
+        return [
+            (
+                trip.chance,
+                replace(leg, motion=trip.motion, takes=trip.takes, cost=trip.cost, on_the_spot=trip.on_the_spot),
+            )
+            for trip in self._trips(world, graph, self._choices(world, graph, candidates))
+        ]
+
+    def _trips(self, world: World, graph: str, choices: Sequence[tuple[str, ...]]) -> Sequence[Trip]:
+        """Return the ways into the first of some choices that can be reached."""
+        drives, playing = driver(world, graph, self.names)
+        for choice in choices:
             trips = self.travel.soonest(graph, playing, choice, drives, graph == self.afresh)
             if trips:
-                return [
-                    (
-                        trip.chance,
-                        replace(
-                            leg,
-                            motion=trip.motion,
-                            takes=trip.takes,
-                            cost=trip.cost,
-                            on_the_spot=trip.on_the_spot,
-                        ),
-                    )
-                    for trip in trips
-                ]
-        return []
+                return trips
+        if graph != self.afresh or not choices:
+            return ()
+        soonest = self.travel.soonest(graph, playing, choices[0], drives) or (Trip(choices[0][0], 1.0, NO_TIME, 0.0),)
+        return [replace(self.travel.on_the_spot(graph, one.motion), chance=one.chance) for one in soonest]
 
     def _choices(self, world: World, graph: str, candidates: tuple[str, ...]) -> list[tuple[str, ...]]:
         """Return candidates in the order in which they are tried, together where the soonest is taken."""

@@ -112,6 +112,9 @@ class Travel(Protocol):
         to_begin : whether they have to be entered where they begin.
         """
 
+    def on_the_spot(self, graph: str, motion: str) -> Trip:
+        """Return how a motion is blended into where it begins, as is done where no way leads there."""
+
     def back(self, graph: str, playing: Playing, driver: str, above: Playing) -> Trip:
         """Return how a part comes back to what `driver`, a graph above it, plays."""
 

@@ -20,12 +20,14 @@ class SaidTravel:
     takes : (source, target) -> seconds; 1 for others. None: no way leads there.
     chances : target -> the chance that it is reached before the others that are as soon.
     fits : (above, motion) -> OMS; else 1 for the same motion, 2 for others.
+    without_begin : motions to whose beginning no way leads.
     """
 
     takes: Mapping[tuple[str, str], float | None] = field(default_factory=dict)
     chances: Mapping[str, float] = field(default_factory=dict)
     costs: Mapping[tuple[str, str], float] = field(default_factory=dict)
     fits: Mapping[tuple[str, str], float] = field(default_factory=dict)
+    without_begin: frozenset[str] = frozenset()
     asked: list[Any] = field(default_factory=list)
 
     def soonest(
@@ -33,6 +35,8 @@ class SaidTravel:
     ) -> tuple[Trip, ...]:
         self.asked.append((graph, playing, candidates, driver, to_begin))
         known = {motion: self.takes.get((playing.motion, motion), 1.0) for motion in candidates}
+        if to_begin:
+            known = {motion: time for motion, time in known.items() if motion not in self.without_begin}
         soonest = min((time for time in known.values() if time is not None), default=None)
         first = [motion for motion, time in known.items() if time is not None and time == soonest]
         if not any(motion in self.chances for motion in first):
@@ -47,6 +51,9 @@ class SaidTravel:
             )
             for motion in first
         )
+
+    def on_the_spot(self, graph: str, motion: str) -> Trip:
+        return Trip(motion, 1.0, exactly(0.75), 0.0, 1.0)
 
     def back(self, graph: str, playing: Playing, driver: str, above: Playing) -> Trip:
         return Trip(above.motion, 1.0, exactly(0.5), 0.25, 1.0)

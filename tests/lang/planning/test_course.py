@@ -132,6 +132,19 @@ def test_once_enters_a_motion_that_is_played_already(reference, said):
     assert course.world.get(ROOT) == Playing("Walk_01", Moment.BEGUN)
 
 
+def test_once_takes_a_candidate_to_whose_beginning_a_way_leads(reference, said):
+    travel = said(without_begin=frozenset({"Talk_01"}), fits={("Walk_01", "Talk_01"): 1.0, ("Walk_01", "Talk_02"): 3.0})
+    course = only("Upper-Body TALK once", world((ROOT, "Walk_01")), reference, travel)
+    assert (legs(course), course.takes.mean) == ([(UPPER, "moves", "Talk_02")], 1.0)
+
+
+def test_once_is_blended_on_the_spot_into_what_is_soonest_where_no_way_leads_to_a_beginning(reference, said):
+    travel = said({("Idle_01", "Walk_01"): 3.0}, without_begin=frozenset({"Walk_01", "Walk_02", "Walk_03"}))
+    course = only("WALK once", world((ROOT, "Idle_01")), reference, travel)
+    (leg,) = course.legs
+    assert (leg.motion, leg.on_the_spot, course.takes.mean) == ("Walk_02", 1.0, 0.75)
+
+
 def test_a_part_that_follows_enters_a_motion_once_all_the_same(reference, said):
     course = only("Upper-Body Talk_01 once", world((ROOT, "Talk_01")), reference, said())
     assert legs(course) == [(UPPER, "moves", "Talk_01")]
