@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import json
 import sqlite3
-import zlib
-from collections.abc import Iterable, Iterator
-from contextlib import closing, contextmanager
+from contextlib import closing
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
@@ -16,14 +14,10 @@ import numpy as np
 from mlmg_runtime.arrays import frozen
 from mlmg_runtime.built_library import BuiltLibrary
 from mlmg_runtime.bvh.document import Joint
-from mlmg_runtime.errors import LibraryError
 from mlmg_runtime.files import atomic_output
+from mlmg_runtime.library_file import APPLICATION_ID, FORMAT_VERSION, PARTS, check_rows, checksum_of, read_part
 from mlmg_runtime.motion_graph import TRANSITION, MotionGraph
 from mlmg_runtime.skeleton import Poses, Skeleton
-
-# "mlmg" in ASCII: says whose SQLite file this is.
-APPLICATION_ID = 0x6D6C6D67
-FORMAT_VERSION = 2
 
 _SCHEMA = """
 CREATE TABLE property (name TEXT PRIMARY KEY, value TEXT NOT NULL);
@@ -46,19 +40,8 @@ CREATE TABLE motion (
     clip TEXT NOT NULL REFERENCES clip (name), tags TEXT NOT NULL,
     PRIMARY KEY (graph, ordinal)
 );
-CREATE TABLE checksum (part TEXT PRIMARY KEY, value INTEGER NOT NULL); -- of what opening reads, see `_PARTS`
+CREATE TABLE checksum (part TEXT PRIMARY KEY, value INTEGER NOT NULL); -- of what opening reads, see `PARTS`
 """
-
-# What is read when a library is opened, in the order of the rows' writing.
-_PARTS = {
-    "property": "SELECT name, value FROM property ORDER BY rowid",
-    "clip": "SELECT name, n_frames FROM clip ORDER BY rowid",
-    "graph": (
-        "SELECT name, parent, joints, weights, window, sigma, blend, report, transitions, oms, hops FROM graph "
-        "ORDER BY ordinal"
-    ),
-    "motion": "SELECT graph, clip, tags FROM motion ORDER BY rowid",
-}
 
 
 def write_database(built: BuiltLibrary, path: Path) -> None:
@@ -78,17 +61,8 @@ def write_database(built: BuiltLibrary, path: Path) -> None:
             _write_properties(connection, built)
             _write_clips(connection, built)
             _write_graphs(connection, built)
-            checksums = [(part, _checksum(connection.execute(query))) for part, query in _PARTS.items()]
+            checksums = [(part, checksum_of(connection.execute(query))) for part, query in PARTS.items()]
             connection.executemany("INSERT INTO checksum VALUES (?, ?)", checksums)
-
-
-def _checksum(rows: Iterable[tuple[object, ...]]) -> int:
-    """Return the CRC-32 of all values of some rows."""
-    checksum = 0
-    for row in rows:
-        for value in row:
-            checksum = zlib.crc32(value if isinstance(value, bytes) else repr(value).encode(), checksum)
-    return checksum
 
 
 def _write_properties(connection: sqlite3.Connection, built: BuiltLibrary) -> None:
@@ -106,7 +80,7 @@ def _write_properties(connection: sqlite3.Connection, built: BuiltLibrary) -> No
 def _write_clips(connection: sqlite3.Connection, built: BuiltLibrary) -> None:
     for name, poses in built.poses.items():
         rotations, positions = poses.rotations.astype("<f4").tobytes(), poses.positions.astype("<f8").tobytes()
-        checksum = _checksum([(poses.n_frames, rotations, positions)])
+        checksum = checksum_of([(poses.n_frames, rotations, positions)])
         row = (name, poses.n_frames, built.sources[name], rotations, positions, checksum)
         connection.execute("INSERT INTO clip VALUES (?, ?, ?, ?, ?, ?)", row)
 
@@ -139,66 +113,6 @@ def _write_graphs(connection: sqlite3.Connection, built: BuiltLibrary) -> None:
         )
 
 
-@contextmanager
-def open_database(path: Path) -> Iterator[sqlite3.Connection]:
-    """Open a library's file for reading, and say plainly if it is none.
-
-    Raises
-    ------
-    LibraryError
-        If the file is not a library, is damaged, or was built by another version.
-    OSError
-        If it cannot be opened.
-    """
-    with path.open("rb"):
-        pass  # a missing or unreadable file is the operating system's to tell
-    try:
-        with closing(sqlite3.connect(f"{path.absolute().as_uri()}?mode=ro", uri=True)) as connection:
-            _check_file(connection, path)
-            yield connection
-    except (sqlite3.DatabaseError, UnicodeDecodeError) as error:  # the latter: a damaged schema in a message
-        raise LibraryError(
-            path,
-            None,
-            f"not a readable library ({error}); expected a file that `mlmg build` wrote: build it again",
-        ) from None
-
-
-def _check_file(connection: sqlite3.Connection, path: Path) -> None:
-    (application,) = connection.execute("PRAGMA application_id").fetchone()
-    (version,) = connection.execute("PRAGMA user_version").fetchone()
-    if application != APPLICATION_ID:
-        raise LibraryError(path, None, "an SQLite file, but no library; expected a file that `mlmg build` wrote")
-    if version != FORMAT_VERSION:
-        raise LibraryError(
-            path,
-            None,
-            f"library format {version}, expected {FORMAT_VERSION}: build it again with this version",
-        )
-    (n_pages,) = connection.execute("PRAGMA page_count").fetchone()
-    (page_size,) = connection.execute("PRAGMA page_size").fetchone()
-    if path.stat().st_size != n_pages * page_size:
-        raise sqlite3.DatabaseError("the file is cut short")
-
-
-def _part(connection: sqlite3.Connection, part: str) -> list[tuple[Any, ...]]:
-    """Return the rows of one of `_PARTS`; damage that SQLite does not see is an error of its kind."""
-    rows = connection.execute(_PARTS[part]).fetchall()
-    (checksum,) = connection.execute("SELECT value FROM checksum WHERE part = ?", (part,)).fetchone() or (None,)
-    _check(part, rows, checksum)
-    return rows
-
-
-def _check(what: str, rows: Iterable[tuple[object, ...]], checksum: int | None) -> None:
-    if _checksum(rows) != checksum:
-        raise sqlite3.DatabaseError(f"the checksum of {what} differs")
-
-
-def read_properties(connection: sqlite3.Connection) -> dict[str, Any]:
-    """Return the library's properties by name: frame_rate, up, start, skeleton, warnings."""
-    return {name: json.loads(value) for name, value in _part(connection, "property")}
-
-
 def skeleton_from_json(joints: list[dict[str, Any]]) -> Skeleton:
     """Return the skeleton that `read_properties` tells of."""
     return Skeleton(
@@ -217,10 +131,10 @@ def skeleton_from_json(joints: list[dict[str, Any]]) -> Skeleton:
 
 def read_graphs(connection: sqlite3.Connection) -> list[tuple[MotionGraph, dict[str, Any]]]:
     """Return the graphs, parents before children, each with the report of its building."""
-    frames = dict(_part(connection, "clip"))
-    motions = _part(connection, "motion")
+    frames = dict(read_part(connection, "clip"))
+    motions = read_part(connection, "motion")
     graphs = []
-    for row in _part(connection, "graph"):
+    for row in read_part(connection, "graph"):
         name, parent, joints, weights, window, sigma, blend, report, transitions, oms, hops = row
         tags = {clip: tuple(json.loads(words)) for graph_of, clip, words in motions if graph_of == name}
         shape = (len(tags), len(tags))
@@ -248,7 +162,7 @@ def read_clip(connection: sqlite3.Connection, name: str, skeleton: Skeleton) -> 
     query = "SELECT n_frames, rotations, positions, checksum FROM clip WHERE name = ?"
     row = connection.execute(query, (name,)).fetchone()
     n_frames, rotations, positions, checksum = row or (0, b"", b"", None)
-    _check(f"the clip {name}", [(n_frames, rotations, positions)], checksum)
+    check_rows(f"the clip {name}", [(n_frames, rotations, positions)], checksum)
     turned = np.frombuffer(rotations, dtype="<f4").astype(np.float64).reshape(n_frames, len(skeleton.joints), 4)
     turned /= np.linalg.norm(turned, axis=-1, keepdims=True)
     moved = np.frombuffer(positions, dtype="<f8").reshape(n_frames, len(skeleton.positioned), 3)

@@ -8,7 +8,8 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
-from mlmg_runtime.database import open_database, read_clip, read_graphs, read_properties, skeleton_from_json
+from mlmg_runtime.database import read_clip, read_graphs, skeleton_from_json
+from mlmg_runtime.library_file import open_database, read_properties
 from mlmg_runtime.motion_graph import UNREACHABLE, MotionGraph
 from mlmg_runtime.skeleton import Poses, Skeleton
 

@@ -14,9 +14,10 @@ from mlmg_runtime import database
 from mlmg_runtime.building.build import build_library
 from mlmg_runtime.building.configuration import read_configuration
 from mlmg_runtime.built_library import BuiltLibrary
-from mlmg_runtime.database import APPLICATION_ID, FORMAT_VERSION, open_database, read_graphs, write_database
+from mlmg_runtime.database import read_graphs, write_database
 from mlmg_runtime.errors import LibraryError
 from mlmg_runtime.library import Library, open_library
+from mlmg_runtime.library_file import APPLICATION_ID, FORMAT_VERSION, open_database
 
 
 @pytest.fixture(scope="module")

@@ -100,9 +100,9 @@ class _Libraries:
             self.without = True
             return None
         if path not in self._opened:
-            from mlmg_runtime.library import open_library
+            from mlmg_runtime.library_names import open_names
 
-            self._opened[path] = open_library(path)
+            self._opened[path] = open_names(path)
         return self._opened[path]
 
 

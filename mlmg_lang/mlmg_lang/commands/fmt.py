@@ -212,9 +212,9 @@ class _Speller:
 
 
 def _open(path: Path) -> Catalog:
-    from mlmg_runtime.library import open_library
+    from mlmg_runtime.library_names import open_names
 
-    return open_library(path)
+    return open_names(path)
 
 
 # --- all of them -----------------------------------------------------------------------------------------

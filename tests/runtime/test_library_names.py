@@ -1,0 +1,65 @@
+"""The names of a library, read without numpy, are those of the library."""
+
+import subprocess
+import sys
+from itertools import product
+from pathlib import Path
+
+import pytest
+
+from mlmg_runtime.errors import LibraryError
+from mlmg_runtime.library_names import GraphNames, LibraryNames, open_names
+
+
+def test_the_names_are_those_of_the_library(demo_library):
+    names = open_names(demo_library.path)
+    assert (names.start, names.frame_rate, names.path) == (
+        demo_library.start,
+        demo_library.frame_rate,
+        demo_library.path,
+    )
+    assert names.graphs == demo_library.graphs
+    for graph in names.graphs:
+        assert names.parent(graph) == demo_library.parent(graph)
+        assert names.motions(graph) == demo_library.motions(graph)
+        for motion in names.motions(graph):
+            assert names.tags(graph, motion) == demo_library.tags(graph, motion)
+            assert names.n_frames(motion) == demo_library.n_frames(motion)
+
+
+def test_what_reaches_and_what_is_unlike_what_is_as_in_the_library(demo_library):
+    names = open_names(demo_library.path)
+    for graph in names.graphs:
+        for pair in product(names.motions(graph), repeat=2):
+            assert names.can_reach(graph, *pair) == demo_library.can_reach(graph, *pair)
+            assert names.unlikeness(graph, *pair) == pytest.approx(demo_library.unlikeness(graph, *pair), rel=1e-12)
+
+
+def test_a_motion_that_no_walk_leads_to_cannot_be_reached():
+    graph = GraphNames(None, {"Step": (), "Wave": ()}, hops=(0, -1, 1, 0), oms=(1.0, 3.0, 5.0, 1.0))
+    names = LibraryNames(Path("a.mlmg"), "Step", 30.0, {"Full-Body": graph}, {"Step": 9, "Wave": 9})
+    assert not names.can_reach("Full-Body", "Step", "Wave")
+    assert names.can_reach("Full-Body", "Wave", "Step")
+    assert names.unlikeness("Full-Body", "Step", "Wave") == 3.0 / 4.0
+
+
+def test_a_graph_of_one_motion_has_nothing_usual():
+    graph = GraphNames(None, {"Step": ()}, hops=(0,), oms=(7.0,))
+    assert LibraryNames(Path("a.mlmg"), "Step", 30.0, {"Full-Body": graph}, {}).unlikeness(
+        "Full-Body", "Step", "Step"
+    ) == pytest.approx(0.0)
+
+
+def test_they_are_read_without_numpy(demo_library):
+    program = (
+        "import sys; from mlmg_runtime.library_names import open_names; "
+        "names = open_names(sys.argv[1]); names.unlikeness(names.graphs[0], *names.motions(names.graphs[0])[:2]); "
+        "sys.exit('numpy' in sys.modules)"
+    )
+    assert subprocess.run([sys.executable, "-c", program, str(demo_library.path)], check=False).returncode == 0
+
+
+def test_a_file_that_is_no_library_is_told_as_ever(tmp_path):
+    (tmp_path / "not.mlmg").write_text("nothing")
+    with pytest.raises(LibraryError, match=r"not\.mlmg"):
+        open_names(tmp_path / "not.mlmg")
