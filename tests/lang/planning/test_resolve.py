@@ -9,7 +9,8 @@ from typing import Any
 import pytest
 
 from mlmg_lang.front_end import analyse
-from mlmg_lang.planning.resolved import Command, Cycles, End, Once, Seconds, Wait
+from mlmg_lang.planning import flow
+from mlmg_lang.planning.resolved import Choose, Command, Cycles, End, Once, Repeat, Seconds, Statement, Wait
 from mlmg_lang.source import Source
 
 Resolves = Callable[..., list[dict[str, tuple[str, ...]]]]
@@ -343,3 +344,192 @@ def test_a_part_that_is_led_to_the_motion_of_its_parent_does_not_run(codes: Code
 
 def test_after_a_mistake_a_part_beside_may_be_running(codes: Codes, hands: Any) -> None:
     assert codes("WLAK\nLeft-Hand WAVE\nend Right-Hand", hands) == ["MS021"]
+
+
+# --- loops and choices ---
+
+
+def commands_of(script: str, library: Any) -> list[dict[str, tuple[str, ...]]]:
+    """Return the candidates of every command, those in bodies too, in the order of the text."""
+    analysis = analyse(Source(script), library)
+    assert analysis.resolved is not None, [one.message for one in analysis.diagnostics]
+    found: list[dict[str, tuple[str, ...]]] = []
+    waiting: list[Statement] = list(analysis.resolved.statements)
+    while waiting:
+        match waiting.pop(0):
+            case Repeat(body=body):
+                waiting = [*body, *waiting]
+            case Choose(branches):
+                waiting = [*(statement for branch in branches for statement in branch.body), *waiting]
+            case Command(layers):
+                found.append({layer.graph: layer.candidates for layer in layers})
+    return found
+
+
+LESS = ("Idle_01", "Music_01", "Talk_01")
+"""The idle motions that the upper body can leave."""
+
+
+@pytest.mark.parametrize(
+    ("script", "idles"),
+    [
+        ("repeat 2 { Upper-Body TALK; IDLE }", LESS),
+        ("repeat 1 { Upper-Body TALK; IDLE }", IDLES),
+        ("repeat 0 { Upper-Body TALK; IDLE }", IDLES),
+        ("repeat 2 { repeat 1 { Upper-Body TALK }; choose { WALK | IDLE } }", LESS),
+        ("repeat 2 { Upper-Body TALK; IDLE; WALK }", IDLES),
+        ("repeat 2 { Upper-Body TALK; IDLE; choose { WALK | } }", LESS),
+        ("repeat 2 { Upper-Body TALK; IDLE; choose { WALK | 0: } }", IDLES),
+        ("IDLE; repeat 2 { Upper-Body TALK; WALK }", LESS),
+        ("IDLE; repeat 2 { WALK; Upper-Body TALK }", IDLES),
+        ("IDLE; repeat 0 { Upper-Body TALK }", LESS),
+        ("repeat 2 { IDLE }; Upper-Body TALK", LESS),
+        ("repeat 0 { IDLE }; Upper-Body TALK", IDLES),
+        ("choose { IDLE | WALK }; Upper-Body TALK", LESS),
+        ("choose { 0: IDLE | WALK }; Upper-Body TALK", IDLES),
+        ("IDLE; choose { WALK | WALK }; Upper-Body TALK", IDLES),
+        ("IDLE; choose { WALK | }; Upper-Body TALK", LESS),
+        ("IDLE; choose { WALK | Upper-Body TALK }", LESS),
+        ("IDLE; choose { WALK | 0: Upper-Body TALK }", LESS),
+        ("IDLE; choose { WALK | WALK; Upper-Body TALK }", IDLES),
+        ("IDLE; choose { 2: choose { WALK | end Upper-Body } | WALK }; wait 1 sec; Upper-Body TALK", LESS),
+    ],
+)
+def test_a_command_is_narrowed_over_every_order(script: str, idles: tuple[str, ...], reference: Any) -> None:
+    assert {"Full-Body": idles} in commands_of(script, reference)
+
+
+def test_several_commands_are_narrowed_for_one(reference: Any) -> None:
+    found = commands_of("choose { IDLE | Full-Body (IDLE or WALK) | WALK }; Upper-Body TALK", reference)
+    less = ("Idle_01", "Walk_01", "Walk_02", "Walk_03", "Music_01", "Talk_01")
+    assert found == [{"Full-Body": LESS}, {"Full-Body": less}, {"Full-Body": WALKS}, {"Upper-Body": TALKS}]
+
+
+def test_a_command_is_narrowed_for_several(catalog: Any) -> None:
+    on = {"Body": {"a": ("A",), "b": ("A",), "c": ("A",)}, "Left": {"a": (), "b": (), "l": ()}}
+    library = catalog({**on, "Right": {"b": (), "c": (), "r": ()}}, {"Left": "Body", "Right": "Body"}, start="a")
+    assert commands_of("A; choose { Left l | Right r }", library)[0] == {"Body": ("b",)}
+
+
+@pytest.mark.parametrize(
+    ("script", "place", "note"),
+    [
+        ("choose { Idle_02 | WALK }; Upper-Body TALK", "Upper-Body TALK", "Idle_02"),
+        ("repeat 2 { Upper-Body TALK; Idle_02 }", "Upper-Body TALK", "Idle_02"),
+        ("repeat 2 { choose { WALK | repeat 2 { Idle_02 } }; Upper-Body TALK }", "Upper-Body TALK", "Idle_02"),
+        ("WALK; repeat 0 { Idle_02; Upper-Body TALK }", "Upper-Body TALK", "Idle_02"),
+        ("WALK; choose { WALK | 0: Idle_02; Upper-Body TALK }", "Upper-Body TALK", "Idle_02"),
+        ("Idle_02; choose { WALK | }; Upper-Body TALK", "Upper-Body TALK", "Idle_02"),
+    ],
+)
+def test_where_one_order_is_impossible_the_later_command_is_at_fault(
+    script: str, place: str, note: str, reference: Any
+) -> None:
+    analysis = analyse(Source(script), reference, start="Talk_01")
+    (one,) = (one for one in analysis.diagnostics if one.severity == "error")
+    assert one.code == "MS040"
+    assert one.span is not None
+    assert analysis.source.slice(one.span) == place
+    assert [analysis.source.slice(note.span) for note in one.notes if note.span] == [note]
+
+
+def test_a_mistake_in_a_body_is_told_once_however_often_it_goes_round(codes: Codes, reference: Any) -> None:
+    assert codes("repeat 3 { repeat 3 { choose { WLAK | } } }", reference) == ["MS021"]
+    assert codes("repeat 3 { Idle_02; Upper-Body TALK; end Full-Body }", reference) == ["MS040", "MS042"]
+    assert codes("repeat 3 { Upper-Body TALK; Idle_02; Upper-Body TALK }", reference) == ["MS040"]
+
+
+def test_after_a_mistake_in_one_branch_anything_may_be_playing(codes: Codes, reference: Any) -> None:
+    assert codes("choose { WLAK | WALK }; Upper-Body TALK; end Upper-Body", reference) == ["MS021"]
+    assert codes("choose { WLAK | Idle_02 }; Upper-Body TALK; end Upper-Body", reference) == ["MS021", "MS040"]
+    assert codes("choose { WLAK | WALK }; Idle_02; Upper-Body TALK", reference) == ["MS021", "MS040"]
+
+
+@pytest.mark.parametrize(
+    ("script", "expected"),
+    [
+        ("repeat 2 { end Upper-Body; Upper-Body TALK }", []),
+        ("repeat 1 { end Upper-Body; Upper-Body TALK }", ["MS043"]),
+        ("choose { Upper-Body TALK | WALK }; end Upper-Body", []),
+        ("choose { 0: Upper-Body TALK | WALK }; end Upper-Body", ["MS043"]),
+        ("choose { WALK | IDLE }; end Upper-Body", ["MS043"]),
+        ("Upper-Body TALK; choose { WALK | end Upper-Body }; end Upper-Body", ["MS043"]),
+        ("Upper-Body TALK; choose { WALK | }; end Upper-Body", []),
+        ("Upper-Body TALK; repeat 2 { end Upper-Body }", []),
+        ("Upper-Body TALK; end Upper-Body; repeat 2 { end Upper-Body }", ["MS043"]),
+    ],
+)
+def test_an_end_is_warned_of_if_nothing_runs_there_in_any_order(
+    script: str, expected: list[str], codes: Codes, reference: Any
+) -> None:
+    assert codes(script, reference) == expected
+
+
+def test_a_first_command_in_a_body_is_not_where_the_character_starts(reference: Any) -> None:
+    for script in ("repeat 2 { Talk_02 }", "choose { Talk_02 }", "let A = Talk_02\nA"):
+        plan = analyse(Source(script), reference).resolved
+        assert plan is not None
+        assert plan.start == "Idle_01"
+
+
+def test_a_plan_has_the_bodies_as_they_are_written(reference: Any) -> None:
+    script = "repeat 3 { WALK; choose { 2: IDLE | end Upper-Body; wait 1 sec | } }; TALK once"
+    plan = analyse(Source(script), reference).resolved
+    assert plan is not None
+    loop, last = plan.statements
+    assert isinstance(loop, Repeat)
+    assert loop.count == 3
+    walk, choice = loop.body
+    assert isinstance(walk, Command)
+    assert isinstance(choice, Choose)
+    assert [(one.weight, [type(it) for it in one.body]) for one in choice.branches] == [
+        (2, [Command]),
+        (1, [End, Wait]),
+        (1, []),
+    ]
+    assert isinstance(last, Command)
+    assert last.duration == Once()
+
+
+def test_an_and_is_shared_out_as_every_order_allows(catalog: Any) -> None:
+    on = {
+        "Body": {"a": ("A",), "c": (), "i": ()},
+        "Top": {"b": ("B",), "i": (), "a": ()},
+        "Hand": {"b": ("B",), "a": ()},
+    }
+    library = catalog(on, {"Top": "Body", "Hand": "Body"}, start="i", cut=frozenset({("Top", "a", "b")}))
+    assert commands_of("A and B", library) == [{"Body": ("a",), "Hand": ("b",)}]
+    assert commands_of("repeat 2 { A and B; i }", library)[0] == {"Body": ("a",), "Hand": ("b",)}
+
+
+# --- how much work it is ---
+
+
+@pytest.mark.parametrize(
+    ("script", "most"),
+    [
+        ("repeat 1 { " * 60 + "WALK; IDLE" + " }" * 60, 10),
+        ("repeat 2 { IDLE; Upper-Body TALK; " * 15 + "WALK; IDLE" + " }" * 15, 1_000),
+        ("repeat 1 { IDLE; Upper-Body TALK; " * 60 + "WALK" + "; IDLE; Upper-Body SWING_HAND }" * 60, 5_000),
+        ("choose { IDLE | " * 60 + "WALK" + " }" * 60 + "; Upper-Body TALK", 1_000),
+        ("repeat 1 { choose { IDLE; Upper-Body TALK | " * 30 + "WALK" + " }; WALK and TALK }" * 30, 2_000),
+        ("repeat 2 { " + "IDLE; Upper-Body TALK; " * 1_000 + "}", 10_000),
+        ("repeat 2 { " + "Upper-Body TALK; IDLE; " * 1_000 + "}", 10_000),
+        ("IDLE; Upper-Body TALK; " * 1_000, 5_000),
+        ("repeat 2 { " + "choose { IDLE | WALK; Upper-Body TALK }; " * 700 + "}; Upper-Body TALK", 20_000),
+    ],
+)
+def test_a_command_is_looked_at_few_times_however_loops_are_nested(
+    script: str, most: int, reference: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    moves = 0
+    move = flow.move
+
+    def counted(*arguments: Any) -> Any:
+        nonlocal moves
+        moves += 1
+        return move(*arguments)
+
+    monkeypatch.setattr(flow, "move", counted)
+    analyse(Source(script), reference)
+    assert 0 < moves <= most
