@@ -1,0 +1,172 @@
+"""How fast scripts are checked, checked again after an edit, and formatted, beside lark's bare parse in the same run.
+
+    python benchmarks/bench_language.py [--lines 100000]
+
+Nothing is played; names are looked up in the demo library. Work inside this process is told in processor time, so that
+other programs hardly matter; whole commands in the time that a person waits, of several cold processes the median.
+Ends with code 1 where a limit is missed.
+"""
+
+from __future__ import annotations
+
+import argparse
+import gc
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+import lark
+from bench_commands import SHORT, median_s
+
+from mlmg_grammar import SCRIPT, grammar_text
+from mlmg_lang.diagnostics import Diagnostic
+from mlmg_lang.front_end import Analysis, analyse
+from mlmg_lang.source import Source
+from mlmg_runtime.demo.library import demo_library
+from mlmg_runtime.library import Library, open_library
+
+N_EDITED_LINES = 10_000
+N_EDITS = 7
+N_SAMPLED_LINES = 2_000
+
+# Of each line of a script one with another number, from 1 to some hundred.
+PATTERNS = (
+    "WALK for {} sec",
+    "Walk_01 with Upper-Body (TALK and IDLE) for {} sec",
+    "SWING_HAND for {} min  # with a comment",
+    "IDLE and not Music for {} sec",
+    "wait {} frames",
+    "WALK or IDLE with Sub WAVE_HAND for {} sec",
+    "Upper-Body (TALK or Music) for {} min",
+    "Talk_02 for {} sec",
+    "WALK with Upper-Body TALK for {} sec",
+    "not (WALK or TALK) for {} cycles",
+)
+
+
+@dataclass(frozen=True)
+class Row:
+    label: str
+    seconds: float
+    limit_s: float | None = None
+    note: str = ""
+
+    @property
+    def misses(self) -> bool:
+        return self.limit_s is not None and self.seconds > self.limit_s
+
+    def __str__(self) -> str:
+        limit = "" if self.limit_s is None else f"{self.limit_s:.3g}"
+        return f"{self.label:<52} {self.seconds:9.3f} {limit:>7}  {self.note}".rstrip()
+
+
+def script(n_lines: int) -> str:
+    """Return a script without a mistake, no line of which is like another."""
+    lines = (PATTERNS[at % len(PATTERNS)].format(f"{1 + at / 1000:.3f}") for at in range(n_lines))
+    return "".join(f"{line}\n" for line in lines)
+
+
+def cpu_s(work: Callable[[], object]) -> float:
+    """Return the processor time of some work."""
+    gc.collect()
+    begin = time.process_time()
+    work()
+    return time.process_time() - begin
+
+
+def bare_parser(text: str, positions: bool) -> lark.Lark:
+    """Return lark's own parser of the grammar, with the lexer that is faster on a sample."""
+    parsers = [
+        lark.Lark(grammar_text(), parser="lalr", lexer=lexer, start=SCRIPT, propagate_positions=positions)
+        for lexer in ("basic", "contextual")
+    ]
+    return min(parsers, key=lambda parser: min(cpu_s(lambda: parser.parse(text)) for _ in range(3)))
+
+
+def checking(n_lines: int, library: Library) -> list[Row]:
+    """Measure the check of a long script, and lark's bare parse of it."""
+    text, sample = script(n_lines), script(N_SAMPLED_LINES)
+    bare, positioned = (bare_parser(sample, positions) for positions in (False, True))
+    bare_s, parse_s = cpu_s(lambda: bare.parse(text)), cpu_s(lambda: positioned.parse(text))
+    analyse(Source(sample), library)
+    told: list[Diagnostic] = []
+    check_s = cpu_s(lambda: told.extend(analyse(Source(text), library).diagnostics))
+    assert not told, told[:3]
+    return [
+        Row(f"lark's bare parse of {n_lines:,} lines, no positions", bare_s),
+        Row("the same with positions, which every node has here", parse_s, None, f"{parse_s / bare_s:.2f} times that"),
+        Row(f"check of {n_lines:,} lines", check_s, 3 * parse_s, f"{check_s / parse_s:.2f} times that; limit 3 times"),
+        Row("the same without a library", cpu_s(lambda: analyse(Source(text)))),
+    ]
+
+
+def analysed_again(previous: Analysis, source: Source, library: Library) -> Analysis:
+    """Return what is known of a script after an edit."""
+    return analyse(source, library)  # There is nothing yet that would make use of `previous`.
+
+
+def editing(library: Library) -> list[Row]:
+    """Measure what an editor waits for after one character has been typed somewhere in a script."""
+    text = script(N_EDITED_LINES)
+    previous = analyse(Source(text), library)
+    times = []
+    for number in range(N_EDITS):
+        at = text.index(".", len(text) * number // N_EDITS) + 1
+        edited = Source(text[:at] + "7" + text[at:])
+        times.append(cpu_s(lambda edited=edited: analysed_again(previous, edited, library)))  # type: ignore[misc]
+    return [Row(f"again after an edit in {N_EDITED_LINES:,} lines", statistics.median(times), 0.010)]
+
+
+def formatting(n_lines: int) -> list[Row]:
+    """Measure the formatter."""
+    from mlmg_lang.formatting.format_script import format_source
+
+    sources = {n: Source(script(n)) for n in (1_000, n_lines)}
+    format_source(sources[1_000])
+    return [Row(f"formatting {n:,} lines", cpu_s(lambda n=n: format_source(sources[n]))) for n in sources]  # type: ignore[misc]
+
+
+def starting(library: Library) -> list[Row]:
+    """Measure how long a person waits for the check of a small script."""
+    check = [sys.executable, "-m", "mlmg_lang.commands.mlmg", "check"]
+    with tempfile.TemporaryDirectory() as folder:
+        small = Path(folder, "small.ms")
+        small.write_text(SHORT, encoding="utf-8")
+        subprocess.run([*check, "--library", str(library.path), str(small)], check=True, capture_output=True)
+        return [
+            Row("a cold Python that does nothing, for comparison", median_s([sys.executable, "-c", "pass"])),
+            Row("mlmg check, a small script, cold, no library", median_s([*check, str(small)]), 0.2),
+            Row(
+                "mlmg check, a small script, cold, with a library",
+                median_s([*check, "--library", str(library.path), str(small)]),
+                0.2,
+            ),
+        ]
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--lines", type=int, default=100_000, help="of the long script")
+    options = parser.parse_args()
+    library = open_library(demo_library())
+    missed = 0
+    print(f"{'':<52} {'seconds':>9} {'limit':>7}")
+    for rows in (
+        starting(library),
+        editing(library),
+        formatting(options.lines),
+        checking(options.lines, library),
+    ):
+        for row in rows:
+            print(row, flush=True)
+            missed += row.misses
+    return int(missed > 0)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
