@@ -7,7 +7,14 @@ import sys
 from collections.abc import Sequence
 from importlib import import_module
 
-from mlmg_lang.commands.console import DONE, WRONG_USAGE, one_thread_a_product, run_command, utf8_streams
+from mlmg_lang.commands.console import (
+    DONE,
+    WRONG_USAGE,
+    one_thread_a_product,
+    run_command,
+    seldom_collect,
+    utf8_streams,
+)
 from mlmg_lang.commands.version import VersionAction
 
 # Subcommand -> what it does. The module of the same name is imported when it is called.
@@ -42,6 +49,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Run `mlmg` and return its exit code."""
     utf8_streams()
     one_thread_a_product()
+    seldom_collect()
     words = list(sys.argv[1:] if arguments is None else arguments)
     if words and words[0] in SUBCOMMANDS:
         return _run(words[0], words[1:])
