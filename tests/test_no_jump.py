@@ -2,7 +2,7 @@
 
 The longest step of a joint in the world is at most 1.5 times its longest in the clips that play at the time. Two
 things on real clips exceed that, and docs/measurements.md tells of them: toes that stand still in a whole clip creep by
-less than 2 mm a frame in transitions that blend unseen; and an upper body is carried about by hips not its own.
+less than 3 mm a frame in transitions that blend unseen; and an upper body is carried about by hips not its own.
 """
 
 from __future__ import annotations
@@ -75,4 +75,4 @@ def test_no_joint_jumps_in_a_random_script(seed, demo_library):
 def test_no_joint_of_the_whole_body_jumps_on_real_clips(seed, reference_library):
     draw = random.Random(seed)
     motions = draw.choices(reference_library.root.motions, k=12)
-    check("\n".join(f"{motion} for {draw.randint(1, 5)} sec" for motion in motions), reference_library, creep=0.2)
+    check("\n".join(f"{motion} for {draw.randint(1, 5)} sec" for motion in motions), reference_library, creep=0.3)

@@ -28,6 +28,9 @@ SMOOTH_SHARE = 0.02
 # A bridge may lead a joint by steps this many times as long as its longest in the two clips. Blends of rotations make
 # steps up to a tenth longer than blends of positions tell; what is shown is not to go half as fast again.
 LARGEST_HURRY = 1.3
+# So fast, in shares of the body's height a second, toes that else stand still are hardly seen to move. Without this, a
+# person who stands and talks would have to walk about to go on talking.
+CREEP_SHARE_S = 0.045
 
 Progress = Callable[[str, int, int], None]
 
@@ -124,7 +127,8 @@ def _build_graph(
     edges = _edges(settings, motions, pairs, results)
     positions = Positions(n_frames)
     if settings.threshold.kind == "auto":
-        moves = hurry([points[motion][:, list(joints)] for motion in motions], weights, settings.window, settings.blend)
+        own = [points[motion][:, list(joints)] for motion in motions]
+        moves = hurry(own, weights, settings.window, settings.blend, CREEP_SHARE_S * stature / clips.frame_rate)
         kept = edges.where(bridges(positions, edges, sigma, settings.window, lambda e: moves.of(e) > LARGEST_HURRY))
     else:
         kept = edges.where(edges.distance <= sigma)

@@ -28,7 +28,8 @@ class Hurry:
     ----------
     points : array, shape (sum of n_frames, n_joints, 3). World positions, y up.
     first : array, shape (n_motions + 1,). Where each motion begins, and their end.
-    longest : array, shape (n_motions, n_joints). Each joint's longest step from a frame to the next.
+    longest : array, shape (n_motions, n_joints). Each joint's longest step from a frame to the next; at least so long
+        that it is hardly seen.
     weights : array, shape (n_joints,). Weights of the joints in the point-cloud distance.
     window : k. blend : how transitions are weighted, "c1" or "linear".
     """
@@ -74,14 +75,15 @@ class Hurry:
         return np.asarray(self.points[inside])
 
 
-def hurry(points: Sequence[FloatArray], weights: FloatArray, window: int, blend: str) -> Hurry:
+def hurry(points: Sequence[FloatArray], weights: FloatArray, window: int, blend: str, creep: float = 0.0) -> Hurry:
     """Return what tells how much transitions hurry.
 
     Parameters
     ----------
     points : world positions of a graph's joints in each of its motions, shape (n_frames, n_joints, 3), y up.
     weights, window, blend : as the graph is configured.
+    creep : the longest step that is hardly seen, in the length unit.
     """
-    longest = [np.linalg.norm(np.diff(p, axis=0), axis=-1).max(axis=0, initial=0.0) for p in points]
+    longest = [np.linalg.norm(np.diff(p, axis=0), axis=-1).max(axis=0, initial=creep) for p in points]
     first = np.cumsum([0, *(len(p) for p in points)])
     return Hurry(np.concatenate(points), first, np.array(longest), weights, window, blend)

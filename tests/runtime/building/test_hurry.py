@@ -88,3 +88,11 @@ def test_a_foot_that_stands_in_both_clips_is_hurried_by_a_blend_that_slides_it()
 def test_no_transitions_hurry_nothing() -> None:
     points = [np.zeros((5, 1, 3)), np.zeros((2, 1, 3))]
     assert hurry(points, np.ones(1), WINDOW, "c1").of(edges_of()).shape == (0,)
+
+
+def test_steps_that_are_hardly_seen_do_not_hurry_a_foot_that_stands() -> None:
+    stands = 1e-3 * np.arange(30)[:, None, None] * np.ones(3)
+    clips = [stands, stands + np.array([[[0.0, 0.4, 0.0]]])]
+    edge = edges_of((0, 10, 1, 13))
+    assert hurry(clips, np.ones(1), WINDOW, "c1").of(edge)[0] > 50
+    assert hurry(clips, np.ones(1), WINDOW, "c1", 0.3).of(edge)[0] < 1
