@@ -5,6 +5,7 @@ from __future__ import annotations
 from bisect import bisect_right
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import accumulate
 
 
 @dataclass(frozen=True, slots=True, order=True)
@@ -32,12 +33,8 @@ class Source:
     @cached_property
     def line_starts(self) -> tuple[int, ...]:
         """Return the offset at which each line begins; lines end in LF, CRLF or CR and in nothing else."""
-        starts = [0]
-        text = self.text
-        for at, character in enumerate(text):
-            if character == "\n" or (character == "\r" and text[at + 1 : at + 2] != "\n"):
-                starts.append(at + 1)
-        return tuple(starts)
+        lines = self.text.replace("\r\n", " \n").replace("\r", "\n").split("\n")
+        return tuple(accumulate(map((1).__add__, map(len, lines[:-1])), initial=0))
 
     @property
     def end(self) -> int:

@@ -17,7 +17,7 @@ from mlmg_lang.planning.typed import Layer
 from mlmg_lang.source import Span
 
 Setter: TypeAlias = tuple[int, str]
-"""The step, by its number, and the graph that it set."""
+"""The step, by its key (a number that sorts it among all steps), and the graph that it set."""
 Origins: TypeAlias = Mapping[str, frozenset[Setter | None]]
 """By motion that may drive a graph, what may have set it; None for the start, or what could not be understood."""
 
@@ -170,7 +170,7 @@ def move(
     Parameters
     ----------
     chosen : one for each graph that it names.
-    index : its number.
+    index : the key of its step.
     forbidden : by graph, the candidates that a later command has ruled out.
     """
     names, catalog = library

@@ -7,7 +7,8 @@ empty, the later command is at fault.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from bisect import bisect_left
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from mlmg_lang.catalog import Catalog
@@ -21,6 +22,18 @@ from mlmg_lang.planning.stops import reason
 from mlmg_lang.source import Source, Span
 from mlmg_lang.spelling import listed, nearest
 
+GAP = 1 << 200
+"""How far apart the keys of steps are at first, so that there is room for others between them."""
+
+
+class ReachesBack(Exception):
+    """A step needs one that stands before those that are resolved."""
+
+    def __init__(self, key: int) -> None:
+        """Say the key of the one that is needed."""
+        super().__init__(key)
+        self.key = key
+
 
 @dataclass(frozen=True, slots=True)
 class Resolution:
@@ -29,11 +42,17 @@ class Resolution:
     Attributes
     ----------
     states : what may be playing before each statement that holds no others, by its span.
+    reached : by step, what could be playing before it when it was first taken.
+    sound : the steps that no later one has ever gone back over: with that alone, all from there comes out the same.
+    joins : the step from which all is as was known already, if there is one; it and later ones have not been taken.
     """
 
     plan: resolved.ResolvedPlan
     diagnostics: tuple[Diagnostic, ...]
     states: Mapping[Span, flow.State]
+    reached: Sequence[flow.State]
+    sound: Sequence[int]
+    joins: int | None = None
 
     @property
     def bodies(self) -> Iterator[tuple[resolved.Statement, ...]]:
@@ -62,17 +81,52 @@ def resolve(
     ----------
     start : the motion of the root graph to start in; without it, the script or the library says which.
     """
-    motion, wrong = _start(plan, names, catalog, start)
-    resolver = _Resolver(names, catalog, chart(plan.statements), source, motion)
+    motion, wrong = start_of(plan.statements, names, catalog, start)
+    n_steps = len(steps := chart(plan.statements))
+    keys = range(GAP, (n_steps + 1) * GAP, GAP)
+    resolver = _Resolver(names, catalog, steps, source, motion, flow.begin(names, motion), keys)
     resolver.run()
+    return _resolution(plan.statements, resolver, wrong)
+
+
+def resolve_part(
+    statements: Sequence[typed.Statement],
+    library: tuple[Names, Catalog],
+    source: Source,
+    before: tuple[str, flow.State],
+    keys: Sequence[int],
+    known: Mapping[int, flow.State],
+) -> Resolution:
+    """Return what some statements of a script play, as far as is not known from an earlier time.
+
+    Parameters
+    ----------
+    before : the motion that the script starts in, and what may be playing before these statements.
+    keys : by step, what sorts it among all steps of the script.
+    known : by steps that stand in no block, with what before them all from there is as it was.
+
+    Raises
+    ------
+    ReachesBack
+        If what stands before these statements would have to be resolved again, or to be told of.
+    """
+    start, state = before
+    resolver = _Resolver(*library, chart(statements), source, start, state, keys, known)
+    resolver.run()
+    return _resolution(statements, resolver, ())
+
+
+def _resolution(
+    statements: Sequence[typed.Statement], resolver: _Resolver, wrong: tuple[Diagnostic, ...]
+) -> Resolution:
     told = (diagnostic for _, diagnostic in sorted(resolver.told.items()))
-    playable = resolved.ResolvedPlan(source, motion, _rebuilt(plan.statements, resolver.done))
+    playable = resolved.ResolvedPlan(resolver.source, resolver.start, _rebuilt(statements, resolver.done))
     states = {
         step.statement.span: state
         for step, state in zip(resolver.steps, resolver.entered, strict=True)
         if step.statement is not None and state is not None
     }
-    return Resolution(playable, (*wrong, *told), states)
+    return Resolution(playable, (*wrong, *told), states, resolver.reached, resolver.sound, resolver.joins)
 
 
 def _rebuilt(
@@ -92,8 +146,8 @@ def _rebuilt(
     return tuple(found)
 
 
-def _start(
-    plan: typed.TypedPlan, names: Names, catalog: Catalog, given: str | None
+def start_of(
+    statements: Iterable[typed.Statement], names: Names, catalog: Catalog, given: str | None
 ) -> tuple[str, tuple[Diagnostic, ...]]:
     """Return the motion to start in, and what is wrong with the one given."""
     of_library = catalog.start
@@ -106,7 +160,7 @@ def _start(
         message = f"there is no motion `{given}` on `{names.root}` to start in"
         near = nearest(given, names.motions(names.root))
         return of_library, (Diagnostic("MS044", message, None, f"there is {listed(near, 'or')}" if near else None),)
-    first = next((one for one in plan.statements if not isinstance(one, typed.Wait | typed.End)), None)
+    first = next((one for one in statements if not isinstance(one, typed.Wait | typed.End)), None)
     return (first.start if isinstance(first, typed.Command) else None) or of_library, ()
 
 
@@ -137,6 +191,8 @@ class _Resolver:
     forbidden : by what set them, the candidates that later commands have ruled out, and why.
     ways : by step, how many of the ways to understand it have failed.
     first_stop : by step, why the first of them has.
+
+    For `keys`, `known`, `reached`, `sound` and `joins` see `resolve_part` and `Resolution`.
     """
 
     names: Names
@@ -144,6 +200,9 @@ class _Resolver:
     steps: list[Step]
     source: Source
     start: str
+    begin: flow.State
+    keys: Sequence[int]
+    known: Mapping[int, flow.State] = field(default_factory=dict)
     entered: list[flow.State | None] = field(default_factory=list)
     left: list[flow.State | None] = field(default_factory=list)
     done: dict[Span, resolved.Statement] = field(default_factory=dict)
@@ -152,14 +211,29 @@ class _Resolver:
     ways: dict[int, int] = field(default_factory=dict)
     first_stop: dict[int, flow.Stopped] = field(default_factory=dict)
     trial: _Trial | None = None
+    reached: list[flow.State] = field(default_factory=list)
+    sound: list[int] = field(default_factory=list)
+    joins: int | None = None
 
     def run(self) -> None:
         self.entered = [None] * len(self.steps)
         self.left = [None] * len(self.steps)
         number = 0
         while number < len(self.steps):
-            self.entered[number] = self._before(number)
+            self.entered[number] = state = self._before(number)
+            if number == len(self.reached) and self._joins_known(number, state):
+                self.entered[number] = None
+                self.joins = number
+                return
             number = self._step(number)
+
+    def _joins_known(self, number: int, state: flow.State) -> bool:
+        """Note that a step is taken for the first time; return whether all from there is known."""
+        self.reached.append(state)
+        if self.trial is not None:
+            return False
+        self.sound.append(number)
+        return number in self.known and self.known[number] == state
 
     def _before(self, number: int) -> flow.State:
         """Return what may be playing before a step, as far as what comes before it has been reached.
@@ -168,7 +242,7 @@ class _Resolver:
         could bring about less, again and again without end.
         """
         step = self.steps[number]
-        known = [flow.begin(self.names, self.start) if n == START else self.left[n] for n in step.before]
+        known = [self.begin if n == START else self.left[n] for n in step.before]
         if step.statement is None:
             known.append(self.entered[number])
         return flow.joined([state for state in known if state is not None], self.names)
@@ -205,14 +279,22 @@ class _Resolver:
 
         That is the step itself, unless a loop around it has come round already: then it is where the outermost begins.
         """
-        reached = [step for step in range(number, len(self.steps)) if self.left[step] is not None]
+        reached = [step for step in range(number, len(self.reached)) if self.left[step] is not None]
         came_round = any(head < number for step in reached for head in self.steps[step].again)
         first = self.steps[number].outermost if came_round else number
+        while self.sound and self.sound[-1] > first:
+            self.sound.pop()
         for later in range(first, len(self.steps)):
             if self.entered[later] is None:
                 break
             self.entered[later] = self.left[later] = None
         return first
+
+    def _number(self, setter: flow.Setter) -> int:
+        """Return the number of the step that has set something."""
+        if setter[0] < self.keys[0]:
+            raise ReachesBack(setter[0])
+        return bisect_left(self.keys, setter[0])
 
     # --- commands ---
 
@@ -220,8 +302,8 @@ class _Resolver:
         if number in self.told:
             return flow.unknown(self.names)
         way = command.ways[self.ways.get(number, 0)]
-        forbidden = {layer.graph: self.forbidden.get((number, layer.graph), {}) for layer in way.layers}
-        outcome = flow.move(way.layers, state, number, forbidden, (self.names, self.catalog))
+        forbidden = {layer.graph: self.forbidden.get((self.keys[number], layer.graph), {}) for layer in way.layers}
+        outcome = flow.move(way.layers, state, self.keys[number], forbidden, (self.names, self.catalog))
         if isinstance(outcome, flow.Move):
             self._accept(number, command, way, outcome)
             return outcome.after
@@ -258,13 +340,13 @@ class _Resolver:
             self.trial = _Trial(number, self._as_stop(way, narrow), {number})
         line, _ = self.source.position(command.span.start)
         because = f"what line {line} asks of `{narrow.graph}` cannot begin in it"
-        self.trial.pending |= {setter for setter, _ in narrow.without}
+        self.trial.pending |= {self._number(setter) for setter in narrow.without}
         for setter, motions in narrow.without.items():
             here = self.forbidden.setdefault(setter, {})
             for motion in sorted(motions - here.keys()):
                 here[motion] = LeftOut(motion, "later command", because)
                 self.trial.forbidden.append((setter, motion))
-        return self._back_to(min(setter for setter, _ in narrow.without))
+        return self._back_to(self._number(min(narrow.without)))
 
     def _as_stop(self, way: typed.Layering, narrow: flow.Narrow) -> flow.Stopped:
         """Return what stops a command if the earlier ones cannot be narrowed for it."""
@@ -280,7 +362,7 @@ class _Resolver:
         first = trial.number
         for setter, motion in trial.forbidden:
             del self.forbidden[setter][motion]
-            first = min(first, setter[0])
+            first = min(first, self._number(setter))
         command = self.steps[trial.number].statement
         assert isinstance(command, typed.Command)
         return min(self._refuse(trial.number, command, trial.stopped), self._back_to(first))
@@ -314,13 +396,13 @@ class _Resolver:
 
     def _reason(self, command: typed.Command, stopped: flow.Stopped) -> Diagnostic:
         """Say why a command cannot be obeyed."""
-        above = command if stopped.setter is None else self.steps[stopped.setter[0]].statement
+        above = command if stopped.setter is None else self.steps[self._number(stopped.setter)].statement
         return reason(stopped, above, tuple(self._origin(stopped)), self.names, self.catalog)
 
     def _origin(self, stopped: flow.Stopped) -> Iterator[Note]:
         """Yield where the motions come from that stand in the way, if it is not this command itself."""
         if stopped.setter is not None:
-            yield Note(f"this is what `{stopped.above}` plays then", self._span(stopped.setter[0]))
+            yield Note(f"this is what `{stopped.above}` plays then", self._span(self._number(stopped.setter)))
         elif not stopped.within:
             yield Note(f"the character starts in `{self.start}`")
 
