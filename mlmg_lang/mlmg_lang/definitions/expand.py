@@ -88,12 +88,23 @@ class _Failed(Exception):
 
 @dataclass(slots=True)
 class _Expander:
+    """Puts in what is defined.
+
+    Attributes
+    ----------
+    command : where the command is that is being worked at.
+    visited : how many nodes have been looked at for it, the same ones again and again.
+    nodes, deepest : of what it becomes, or a parameter's value in it, as far as that is known.
+    all_nodes : of all commands before.
+    """
+
     definitions: Definitions
     diagnostics: list[Diagnostic] = field(default_factory=list)
-    nodes: int = 0
-    all_nodes: int = 0
-    deepest: int = 0
     command: Span = field(default_factory=lambda: Span(0, 0))
+    visited: int = 0
+    nodes: int = 0
+    deepest: int = 0
+    all_nodes: int = 0
 
     # --- statements ---
 
@@ -111,7 +122,8 @@ class _Expander:
         return item
 
     def _command(self, command: syntax.Command) -> syntax.Item:
-        self.nodes, self.command = 0, command.span
+        self.command = command.span
+        self.visited = self.nodes = self.deepest = 0
         try:
             whole = self._whole(command)
             motion = self._motion(command.motion, {}, 0) if whole is None else whole.motion
@@ -177,9 +189,10 @@ class _Expander:
 
     def _grow(self, n_nodes: int, depth: int) -> None:
         """Count what is put in, and fail where that is too much or too deep."""
+        self.visited += 1
         self.nodes += n_nodes
         self.deepest = max(self.deepest, depth)
-        if self.nodes > MAX_NODES or depth > 2 * MAX_DEPTH:
+        if max(self.nodes, self.visited) > MAX_NODES or depth > 2 * MAX_DEPTH:
             message = "this becomes too large when what is defined is put in"
             raise self._fail(Diagnostic("MS048", message, self.command, "say it with fewer definitions in each other"))
 
@@ -194,11 +207,11 @@ class _Expander:
         """Return what a parameter stands for, with all that is defined put in."""
         if isinstance(value, syntax.Quantity):
             return _Value(value)
-        n_nodes, deepest = self.nodes, self.deepest
-        self.deepest = depth
+        before = self.nodes, self.deepest
+        self.nodes, self.deepest = 0, depth
         put_in = self._motion(value, values, depth)
-        measured = _Value(put_in, self.nodes - n_nodes, self.deepest - depth)
-        self.deepest = max(self.deepest, deepest)
+        measured = _Value(put_in, self.nodes, self.deepest - depth)
+        self.nodes, self.deepest = before
         return measured
 
     def _qualified(self, motion: syntax.Qualified, values: Values, depth: int) -> syntax.Motion:
