@@ -45,6 +45,8 @@ Fixed = Callable[..., str]
         ("WALK with (Upper-Body TALK", "WALK with (Upper-Body TALK)"),
         ("WALK)", "WALK"),
         ("Upper-Body not TALK", "not Upper-Body TALK"),
+        ("WALK not TALK", "WALK and not TALK"),
+        ("WALK（TALK） for 3 sec", "WALK(TALK) for 3 sec"),
         ("Upper--Body", '"Upper--Body"'),
         ("3d_walk", '"3d_walk"'),
         ("hand😀", '"hand😀"'),

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 from typing import Protocol
 
 from mlmg_lang.definitions.parameters import Kind, Kinds, Signature, signatures
-from mlmg_lang.diagnostics import Diagnostic, Fix, Note
+from mlmg_lang.diagnostics import Diagnostic, Note
 from mlmg_lang.parsing import syntax
 from mlmg_lang.parsing.parse import parse
 from mlmg_lang.parsing.tokenize import tokenize
@@ -127,8 +127,7 @@ class _Gatherer:
 
     def _refuse(self, use: syntax.Use, code: str, message: str, advice: str | None) -> None:
         self.complete = False
-        fix = Fix(use.span, "", safe=False)
-        self.diagnostics.append(Diagnostic(code, message, use.path.span, advice, fixes=(fix,)))
+        self.diagnostics.append(Diagnostic(code, message, use.path.span, advice))
 
 
 def _lets(script: syntax.Script) -> Iterator[syntax.Let]:

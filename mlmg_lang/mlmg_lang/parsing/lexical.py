@@ -91,7 +91,8 @@ def _odd_name(token: Token) -> Diagnostic:
     plain = unicodedata.normalize("NFKC", token.text)
     if plain != token.text and plain.isascii():
         message = f"a name without quotes cannot {does}: wide letters and signs have no meaning here"
-        fix = Fix(token.span, plain, safe=True)
+        plain = re.sub(r"([),;:])(?=\w)", r"\1 ", plain)
+        fix = Fix(token.span, plain, safe=is_name(plain))
         return Diagnostic("MS003", message, token.span, f"write `{plain}`", fixes=(fix,))
     message = f"a name without quotes cannot {does}"
     if not token.text.isprintable():

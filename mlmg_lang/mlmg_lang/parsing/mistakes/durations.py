@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from mlmg_grammar import is_name
 from mlmg_lang.diagnostics import Fix
 from mlmg_lang.parsing.amounts import SECONDS, UNITS, spelled
 from mlmg_lang.parsing.line_parser import Stuck
@@ -157,10 +158,12 @@ def for_missing(stuck: Stuck) -> Mistake | None:
     if unit is None or unit.text.lower() not in UNITS:
         return None
     at = Span(number.span.start, number.span.start)
+    before = stuck.token(-1)
+    is_sure = before is None or before.type != "NAME" or is_name(before.text)
     meant = replaced(stuck, stuck.at, Token("FOR", "for", at), n=0)
     advice = f"write `for {number.text} {unit.text.lower()}`"
     return mistake("MS010", "a duration stands after `for`", across(number, unit), advice,
-                   Fix(at, "for ", safe=True), meant=meant)  # fmt: skip
+                   Fix(at, "for ", safe=is_sure), meant=meant)  # fmt: skip
 
 
 def for_too_much(stuck: Stuck) -> Mistake | None:

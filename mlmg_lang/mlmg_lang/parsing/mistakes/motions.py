@@ -50,9 +50,13 @@ def not_after_graph(stuck: Stuck) -> Mistake | None:
         return None
     span, name = across(graph, word), graph.text
     advice = f"if `{name}` is a graph, write `not {name} ...`; if it is a motion, `{name} and not ...`"
-    meant = replaced(stuck, stuck.at - 1, word, graph, n=2)
+    # A `-` is what names of body parts have, and those of motions have not: nothing else tells them apart here.
+    if "-" in name:
+        right, meant = f"not {name}", replaced(stuck, stuck.at - 1, word, graph, n=2)
+    else:
+        right, meant = f"{name} and not", replaced(stuck, stuck.at, Token("AND", "and", word.span), word)
     return mistake("MS010", "`not` cannot stand directly after a name", span, advice,
-                   Fix(span, f"not {name}", safe=False), meant=meant)  # fmt: skip
+                   Fix(span, right, safe=False), meant=meant)  # fmt: skip
 
 
 def parenthesis(stuck: Stuck) -> Mistake | None:
