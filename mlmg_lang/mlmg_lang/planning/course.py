@@ -136,9 +136,9 @@ class _Mover:
 
     def _follow(self, course: Course, graphs: Sequence[str]) -> Course:
         """Let parts follow the graph above, which plays what they are to do; those that run are ended."""
-        legs = tuple(self._leg(course.world, graph, Kind.FOLLOWS) for graph in graphs)
         running = [graph for graph in graphs if course.world.get(graph) is not None]
         course = self.end(course, dict.fromkeys(running, "the graph above plays what it is to do"))
+        legs = tuple(self._leg(course.world, graph, Kind.FOLLOWS) for graph in graphs)
         return replace(course, legs=course.legs + legs)
 
     def _set_out(self, course: Course, chosen: Sequence[tuple[float, Leg]]) -> Course:
@@ -153,8 +153,8 @@ class _Mover:
 
     def _arrival(self, leg: Leg) -> Playing:
         if leg.graph == self.afresh:
-            return Playing(leg.motion, Moment.BEGUN)
-        return Playing(leg.motion, Moment.ARRIVED, leg.playing.motion)
+            return Playing(leg.motion, Moment.BEGUN, held_s=0.0)
+        return Playing(leg.motion, Moment.ARRIVED, leg.playing.motion, 0.0)
 
     def _passed(self, course: Course, legs: Sequence[Leg], world: World) -> Course:
         """Return a course after graphs have done something at the same time, and all others have waited for them."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from enum import StrEnum
+from math import inf
 from typing import Protocol
 
 
@@ -50,13 +51,12 @@ def together(estimates: Iterable[Estimate]) -> Estimate:
 
 
 class Moment(StrEnum):
-    """What is known of where in its motion a graph is."""
+    """A moment of which it is known where in its motion a graph was."""
 
     FIRST = "at its first frame"
-    ARRIVED = "arrived"
     BEGUN = "where it begins"
+    ARRIVED = "where one arrives from another"
     PASSED = "at its last exit"
-    HELD = "anywhere"
 
 
 @dataclass(frozen=True, slots=True, order=True)
@@ -65,20 +65,18 @@ class Playing:
 
     Attributes
     ----------
-    source : if it has arrived, the motion that it came from.
-    held_s : seconds since that moment, in which it has stayed in the motion.
+    moment : when that was known. source : if it had arrived then, the motion that it came from.
+    held_s : seconds since, in which it has stayed in the motion; infinite, if it may be any number.
     """
 
     motion: str
-    moment: Moment = Moment.HELD
+    moment: Moment = Moment.BEGUN
     source: str = ""
-    held_s: float = 0.0
+    held_s: float = inf
 
     def held(self, time: Estimate) -> Playing:
-        """Return what is known after some time; where that is not sure, it may be anywhere."""
-        if self.moment is Moment.HELD or time.least < time.most:
-            return Playing(self.motion)
-        return replace(self, held_s=self.held_s + time.mean)
+        """Return what is known after some time; where that is not sure, it may be any."""
+        return replace(self, held_s=self.held_s + time.mean if time.least == time.most else inf)
 
 
 @dataclass(frozen=True, slots=True)

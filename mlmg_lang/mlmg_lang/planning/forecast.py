@@ -104,7 +104,7 @@ def forecast(plan: ResolvedPlan, names: Names, travel: Travel) -> Forecast:
 
 def at_start(plan: ResolvedPlan, names: Names) -> World:
     """Return what plays when a script begins."""
-    return World(((names.root, Playing(plan.start, Moment.FIRST)),))
+    return World(((names.root, Playing(plan.start, Moment.FIRST, held_s=0.0)),))
 
 
 def merged(worlds: Iterable[tuple[World, float]]) -> Outlook:
@@ -138,7 +138,7 @@ def afterwards(world: World, command: Command, names: Names, travel: Travel) -> 
     passed: dict[str, Playing] = {}
     if isinstance(command.duration, Once):
         drives, playing = driver(world, top, names)
-        passed = {drives: Playing(playing.motion, Moment.PASSED)}
+        passed = {drives: Playing(playing.motion, Moment.PASSED, held_s=0.0)}
     return World(tuple({**dict(world.held(lasts).running), **passed}.items()))
 
 

@@ -3,9 +3,14 @@
 from __future__ import annotations
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from mlmg_lang.explaining.explain import explanation_from_analysis
 from mlmg_lang.explaining.explanation import Command
+from mlmg_lang.explaining.mermaid import render_mermaid
+from mlmg_lang.explaining.plan_json import plan_from_json, plan_to_json
+from mlmg_lang.explaining.text import render_text
 from mlmg_lang.front_end import analyse
 from mlmg_lang.script_files import used_files
 from mlmg_lang.source import Source
@@ -238,3 +243,61 @@ def test_estimates_are_near_what_happens_on_the_demo_library(explained, demo_lib
     told = explained(script, demo_library, seed=seed)
     assert told.played is not None
     assert told.totals.takes.least * 0.9 <= told.played.seconds <= told.totals.takes.most * 1.1
+
+
+# --- whatever the script ---
+
+SETS = st.sampled_from(["WALK", "IDLE", "TALK", "Music", "Walk_02", "Idle_02", "not WALK", "(TALK or IDLE)"])
+PARTS = st.sampled_from(
+    ["SWING_HAND", "Upper-Body TALK", "Sub (TALK or IDLE)", "Left-Hand WAVE", "Left-Hand not IDLE", "WAVE_HAND"]
+)
+AFTER = st.sampled_from(["", " for 2 sec", " for 1 cycles", " once"])
+COMMANDS = st.one_of(
+    st.builds("{}{}".format, SETS, AFTER),
+    st.builds("{} with {}{}".format, SETS, PARTS, AFTER),
+    st.builds("{} and {}{}".format, SETS, SETS | PARTS, AFTER),
+    st.builds("Upper-Body {} with Left-Hand WAVE{}".format, SETS, AFTER),
+    st.sampled_from(["wait 1 sec", "wait 2 cycles", "end Upper-Body", "end Left-Hand"]),
+)
+BODIES = st.recursive(
+    st.lists(COMMANDS, min_size=1, max_size=3).map("; ".join),
+    lambda inner: st.one_of(
+        st.builds("repeat {} {{ {} }}".format, st.integers(0, 4), inner),
+        st.builds("choose {{ {} | 2: {} | }}".format, inner, inner),
+        st.builds("{}\n{}".format, inner, inner),
+    ),
+    max_leaves=4,
+)
+
+
+@given(body=BODIES, start=st.sampled_from(["Idle_01", "Walk_03", "Idle_02"]), ahead=st.booleans())
+def test_whatever_a_script_says_it_is_explained(body, start, ahead, made_library, flat):
+    analysis = analyse(Source(body, "script.ms"), made_library, start)
+    if analysis.resolved is None:
+        return
+    told = explanation_from_analysis(analysis, made_library, start, ahead)
+    check_sense(told, flat)
+    assert plan_from_json(plan_to_json(told)) == told
+    assert render_text(told)
+    assert render_mermaid(told)
+
+
+def check_sense(told, flat):
+    """Check that chances add up, and that times are in order."""
+    for one in flat(told):
+        if one.kind == "choose":
+            assert sum(branch.chance for branch in one.branches) == pytest.approx(1.0, abs=0.01)
+        if one.kind != "command" or not one.before[0].runs:
+            continue
+        assert one.arrives.least <= one.arrives.mean <= one.arrives.most
+        assert {layer.graph for layer in one.layers} == graphs_of(one.expression)
+        for layer in one.layers:
+            assert layer.candidates
+            assert sum(candidate.chance for candidate in layer.candidates) == pytest.approx(1.0, abs=0.02), one.text
+            moves = sum(source.chance for source in layer.sources)
+            assert layer.stays + layer.follows + moves == pytest.approx(1.0, abs=0.02), one.text
+    assert told.totals.takes.least <= told.totals.takes.mean <= told.totals.takes.most
+
+
+def graphs_of(expression):
+    return {one.graph for one in getattr(expression, "assigned", ())} or {expression.expression.graph}

@@ -44,7 +44,7 @@ def test_the_root_goes_where_it_is_soonest(reference, said):
     course = only("WALK", world((ROOT, "Idle_01")), reference, travel)
     assert legs(course) == [(ROOT, "moves", "Walk_02")]
     assert course.takes.mean == 2.0
-    assert course.world.get(ROOT) == Playing("Walk_02", Moment.ARRIVED, "Idle_01")
+    assert course.world.get(ROOT) == Playing("Walk_02", Moment.ARRIVED, "Idle_01", 0.0)
 
 
 def test_what_plays_a_candidate_stays(reference, said):
@@ -77,7 +77,7 @@ def test_parts_set_out_when_the_graph_above_has_arrived(reference, said):
     travel = said({("Idle_01", "Walk_01"): 2.0, ("Walk_01", "Talk_01"): 3.0})
     course = only("Walk_01 with Upper-Body Talk_01", world((ROOT, "Idle_01")), reference, travel)
     assert course.takes.mean == 5.0
-    assert travel.asked[-1][1] == Playing("Walk_01", Moment.ARRIVED, "Idle_01"), "it leaves what was just arrived in"
+    assert travel.asked[-1][1] == Playing("Walk_01", Moment.ARRIVED, "Idle_01", 0.0), "it leaves what was just arrived in"
     assert course.world.get(ROOT) == Playing("Walk_01", Moment.ARRIVED, "Idle_01", held_s=3.0)
 
 
@@ -113,7 +113,7 @@ def test_a_part_that_is_satisfied_stays_where_the_graph_above_does(reference, sa
 def test_a_part_follows_where_the_graph_above_plays_the_candidate_taken(reference, said):
     before = world((ROOT, "Talk_01"), (UPPER, "Walk_01"))
     course = only("Talk_01 with Upper-Body (TALK and IDLE)", before, reference, said())
-    assert [leg[:2] for leg in legs(course)] == [(ROOT, "stays"), (UPPER, "ends"), (UPPER, "follows")]
+    assert legs(course) == [(ROOT, "stays", "Talk_01"), (UPPER, "ends", "Talk_01"), (UPPER, "follows", "Talk_01")]
     assert course.world.get(UPPER) is None
 
 
@@ -129,7 +129,7 @@ def test_once_enters_a_motion_that_is_played_already(reference, said):
     travel = said()
     course = only("Walk_01 once", world((ROOT, "Walk_01")), reference, travel)
     assert travel.asked[0][-1] is True
-    assert course.world.get(ROOT) == Playing("Walk_01", Moment.BEGUN)
+    assert course.world.get(ROOT) == Playing("Walk_01", Moment.BEGUN, held_s=0.0)
 
 
 def test_once_takes_a_candidate_to_whose_beginning_a_way_leads(reference, said):

@@ -98,7 +98,7 @@ def test_nothing_known_is_lost_while_time_passes_that_is_known(reference, said):
 def test_after_a_pass_a_motion_is_at_its_last_exit(reference, said):
     script = "Walk_01 once\nIdle_01 for 1 sec"
     (world,) = outcome(script, reference, said(), "Idle_01").before
-    assert world.get(ROOT) == Playing("Walk_01", Moment.PASSED)
+    assert world.get(ROOT) == Playing("Walk_01", Moment.PASSED, held_s=0.0)
 
 
 def test_the_end_of_a_part_takes_the_way_back_where_it_runs(reference, said):
