@@ -19,7 +19,8 @@ def executed(plan: ResolvedPlan, seed: int) -> Iterator[Step]:
     ----------
     seed : of the stream of random numbers of which each `choose` takes one whenever it is executed.
     """
-    yield from _body(plan.statements, Random(seed))
+    # Of a number, `Random` takes no notice of the sign.
+    yield from _body(plan.statements, Random(seed if seed >= 0 else str(seed)))
 
 
 def _body(statements: Iterable[Statement], draws: Random) -> Iterator[Step]:
