@@ -267,7 +267,7 @@ def _layer(layer: Layer) -> Tree:
             told.append(f"from {sources} to {goal}")
             rows = _candidates(layer)
     children = [*rows, *map(_ranking, _told_apart(layer)), *_left_out(layer)]
-    return Tree(layer.graph, "; else ".join(told) or "what it does cannot be foretold", tuple(children), (BLUE,))
+    return Tree(layer.graph, "; else ".join(told) or "no way is known from where it will probably be", tuple(children), (BLUE,))
 
 
 def _staying(layer: Layer) -> Iterator[str]:
