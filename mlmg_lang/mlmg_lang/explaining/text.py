@@ -267,7 +267,8 @@ def _layer(layer: Layer) -> Tree:
             told.append(f"from {sources} to {goal}")
             rows = _candidates(layer)
     children = [*rows, *map(_ranking, _told_apart(layer)), *_left_out(layer)]
-    return Tree(layer.graph, "; else ".join(told) or "no way is known from where it will probably be", tuple(children), (BLUE,))
+    text = "; else ".join(told) or "no way is known from where it will probably be"
+    return Tree(layer.graph, text, tuple(children), (BLUE,))
 
 
 def _staying(layer: Layer) -> Iterator[str]:

@@ -77,7 +77,8 @@ def test_parts_set_out_when_the_graph_above_has_arrived(reference, said):
     travel = said({("Idle_01", "Walk_01"): 2.0, ("Walk_01", "Talk_01"): 3.0})
     course = only("Walk_01 with Upper-Body Talk_01", world((ROOT, "Idle_01")), reference, travel)
     assert course.takes.mean == 5.0
-    assert travel.asked[-1][1] == Playing("Walk_01", Moment.ARRIVED, "Idle_01", 0.0), "it leaves what was just arrived in"
+    arrived = Playing("Walk_01", Moment.ARRIVED, "Idle_01", 0.0)
+    assert travel.asked[-1][1] == arrived, "it leaves what was just arrived in"
     assert course.world.get(ROOT) == Playing("Walk_01", Moment.ARRIVED, "Idle_01", held_s=3.0)
 
 
