@@ -164,6 +164,7 @@ def move(
     index: int,
     forbidden: Mapping[str, Mapping[str, LeftOut]],
     library: tuple[Names, Catalog],
+    once: bool = False,
 ) -> Move | Narrow | Stopped:
     """Return what a command does.
 
@@ -172,21 +173,30 @@ def move(
     chosen : one for each graph that it names.
     index : the key of its step.
     forbidden : by graph, the candidates that a later command has ruled out.
+    once : whether the topmost of its graphs begins its motion anew: no way has to lead there, and it runs by itself.
     """
     names, catalog = library
     layers = {layer.graph: layer for layer in sorted(chosen, key=lambda layer: names.height(layer.graph))}
-    return _Mover(names, catalog, state, index, layers).run(forbidden)
+    begins = next(iter(layers)) if once else None
+    return _Mover(names, catalog, state, index, layers, begins).run(forbidden)
 
 
 @dataclass(slots=True)
 class _Mover:
-    """Works out one command. `left` holds by graph the candidates that are still in question."""
+    """Works out one command.
+
+    Attributes
+    ----------
+    begins : the graph that begins its motion anew, if one does.
+    left : by graph, the candidates that are still in question.
+    """
 
     names: Names
     catalog: Catalog
     state: State
     index: int
     layers: dict[str, Layer]
+    begins: str | None
     left: dict[str, tuple[str, ...]] = field(default_factory=dict)
     out: dict[str, dict[str, LeftOut]] = field(default_factory=dict)
     parts: dict[str, Part] = field(default_factory=dict)
@@ -280,7 +290,9 @@ class _Mover:
     def _may_move(self, graph: str) -> bool:
         """Return whether a layer, or one above it, may change."""
         above = self._named_above(graph)
-        return (above is not None and self._may_move(above)) or not self._before(graph) <= set(self.left[graph])
+        if graph == self.begins or (above is not None and self._may_move(above)):
+            return True
+        return not self._before(graph) <= set(self.left[graph])
 
     # --- from the highest to the lowest: how does each get there? ---
 
@@ -295,7 +307,7 @@ class _Mover:
         else:
             driving = self.parts[above].motions
             sources = driving | self._kept(graph, above)
-        for motion in self.left[graph]:
+        for motion in self.left[graph] if graph != self.begins else ():
             if motion not in sources | driving and not any(self._reaches(graph, source, motion) for source in sources):
                 self._leave_out(graph, motion, "unreachable", "it cannot be reached")
         self.parts[graph] = self._arrived(graph, sources, driving)
@@ -352,7 +364,7 @@ class _Mover:
         alone = moves or (before is not None and before.alone and bool(before.motions & sources))
         same = len(motions) == 1 and motions == driving
         here: frozenset[Setter | None] = frozenset(((self.index, graph),))
-        return Part(dict.fromkeys(self.left[graph], here), alone and not same)
+        return Part(dict.fromkeys(self.left[graph], here), (alone and not same) or graph == self.begins)
 
     def _after(self) -> State:
         """Return the state after the command: it ends what is below its graphs and not named."""
@@ -374,7 +386,7 @@ class _Mover:
     def _leads_on(self, graph: str, source: str) -> bool:
         """Return whether from a motion a candidate can be reached; being one is enough."""
         left = self.left[graph]
-        return source in left or any(self._reaches(graph, source, motion) for motion in left)
+        return graph == self.begins or source in left or any(self._reaches(graph, source, motion) for motion in left)
 
     def _reaches(self, graph: str, source: str, target: str) -> bool:
         return self.catalog.can_reach(graph, source, target)

@@ -303,7 +303,7 @@ class _Resolver:
             return flow.unknown(self.names)
         way = command.ways[self.ways.get(number, 0)]
         forbidden = {layer.graph: self.forbidden.get((self.keys[number], layer.graph), {}) for layer in way.layers}
-        outcome = flow.move(way.layers, state, self.keys[number], forbidden, (self.names, self.catalog))
+        outcome = flow.move(way.layers, state, self.keys[number], forbidden, (self.names, self.catalog), command.once)
         if isinstance(outcome, flow.Move):
             self._accept(number, command, way, outcome)
             return outcome.after

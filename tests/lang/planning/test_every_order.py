@@ -26,6 +26,23 @@ Wanted = Mapping[str, Sequence[str]]
 """By graph, the candidates."""
 
 
+@dataclass(frozen=True)
+class Order:
+    """A command, in whichever plan."""
+
+    wanted: Wanted
+    once: bool
+    span: Span
+
+
+def order_of(command: typed.Command | resolved.Command) -> Order:
+    if isinstance(command, typed.Command):
+        wanted = {layer.graph: layer.motions for layer in command.ways[0].layers}
+        return Order(wanted, command.once, command.span)
+    once = isinstance(command.duration, resolved.Once)
+    return Order({layer.graph: layer.candidates for layer in command.layers}, once, command.span)
+
+
 @dataclass
 class Character:
     """Performs a plan in every way that it may be performed.
@@ -47,12 +64,9 @@ class Character:
         """Return all that may be playing after some statements; `endlessly`: loops go round any number of times."""
         for statement in statements:
             match statement:
-                case typed.Command(ways=ways):
-                    wanted = {layer.graph: layer.motions for layer in ways[0].layers}
-                    cases = {after for case in cases for after in self._obey(case, wanted, statement.span)}
-                case resolved.Command(layers=layers):
-                    wanted = {layer.graph: layer.candidates for layer in layers}
-                    cases = {after for case in cases for after in self._obey(case, wanted, statement.span)}
+                case typed.Command() | resolved.Command():
+                    order = order_of(statement)
+                    cases = {after for case in cases for after in self._obey(case, order)}
                 case typed.End(graph) | resolved.End(graph):
                     runs = any(graph in dict(case) for case in cases)
                     self.running[statement.span] = self.running.get(statement.span, False) or runs
@@ -80,49 +94,59 @@ class Character:
 
     # --- one command ---
 
-    def _obey(self, case: Playing, wanted: Wanted, span: Span) -> set[Playing]:
+    def _obey(self, case: Playing, order: Order) -> set[Playing]:
         """Return all that may be playing when every part of a command has arrived."""
-        cases = {self._ended(case, [graph for graph in self._below(case, wanted) if graph not in wanted])}
+        below = [graph for graph in self._below(case, order.wanted) if graph not in order.wanted]
+        cases = {self._ended(case, below)}
         for depth in range(len(self.library.graphs)):
-            level = [graph for graph in wanted if len(self._above(graph)) == depth]
+            level = [graph for graph in self.library.graphs if graph in order.wanted and self._depth(graph) == depth]
             cases = {
                 after
                 for case in cases
-                for changing in self._changing(case, level, wanted)
-                for after in self._changed(case, changing, wanted, span)
+                for changing in self._changing(case, level, order)
+                for after in self._changed(case, changing, order)
             }
         return cases
 
-    def _changing(self, case: Playing, level: Sequence[str], wanted: Wanted) -> Iterator[list[str]]:
-        """Yield which graphs of a level may change: those that are not satisfied; of a restless one, others too."""
-        must = [graph for graph in level if self._driver(case, graph) not in wanted[graph]]
-        content = [graph for graph in level if graph not in must]
+    def _changing(self, case: Playing, level: Sequence[str], order: Order) -> Iterator[list[str]]:
+        """Yield which graphs of a level may change: those that are not satisfied; of a restless one, others too.
+
+        One that is to begin anew may stay only if it has just begun.
+        """
+        must = [graph for graph in level if self._driver(case, graph) not in order.wanted[graph]]
+        begins = [graph for graph in level if graph not in must and graph == self._begins(order)]
+        content = [graph for graph in level if graph not in must and graph not in begins]
         for number in range(len(content) + 1 if self.restless else 1):
             for some in combinations(content, number):
-                yield [*must, *some]
+                yield [*must, *begins, *some]
+                if begins and begins[0] in dict(case):
+                    yield [*must, *some]
 
-    def _changed(self, case: Playing, changing: Sequence[str], wanted: Wanted, span: Span) -> Iterator[Playing]:
+    def _changed(self, case: Playing, changing: Sequence[str], order: Order) -> Iterator[Playing]:
         case = self._ended(case, self._below(case, changing))
-        ways = [list(self._ways(case, graph, wanted[graph], span)) for graph in changing]
+        ways = [list(self._ways(case, graph, order)) for graph in changing]
         for taken in product(*ways):
             playing = dict(case)
             for graph, motion in zip(changing, taken, strict=True):
-                if self._above(graph) and motion == self._driver(case, self._above(graph)[0]):
-                    playing.pop(graph, None)  # it follows
+                if motion == self._followed(case, graph) and graph != self._begins(order):
+                    playing.pop(graph, None)
                 else:
                     playing[graph] = motion
             yield frozenset(playing.items())
 
-    def _ways(self, case: Playing, graph: str, candidates: Sequence[str], span: Span) -> Iterator[str]:
+    def _ways(self, case: Playing, graph: str, order: Order) -> Iterator[str]:
         """Yield the candidates that a graph can go to; if there is none, the character is stuck."""
-        source = self._driver(case, graph)
-        followed = self._driver(case, self._above(graph)[0]) if self._above(graph) else None
+        followed, source = self._followed(case, graph), self._driver(case, graph)
         if followed is not None and followed not in self.library.motions(graph):
-            self.stuck.append((span, graph, "rule 1"))
+            self.stuck.append((order.span, graph, "rule 1"))
             return
-        found = [one for one in candidates if one == followed or self.library.can_reach(graph, source, one)]
+        found = [
+            one
+            for one in order.wanted[graph]
+            if graph == self._begins(order) or one == followed or self.library.can_reach(graph, source, one)
+        ]
         if not found:
-            self.stuck.append((span, graph, "unreachable"))
+            self.stuck.append((order.span, graph, "unreachable"))
         yield from found
 
     def _ended(self, case: Playing, graphs: Sequence[str]) -> Playing:
@@ -131,6 +155,18 @@ class Character:
         return frozenset((graph, motion) for graph, motion in case if graph not in graphs and graph not in below)
 
     # --- who is where ---
+
+    def _begins(self, order: Order) -> str | None:
+        """Return the graph that begins its motion anew, to which a blend on the spot leads if nothing else does."""
+        highest = sorted(order.wanted, key=lambda graph: (self._depth(graph), self.library.graphs.index(graph)))
+        return highest[0] if order.once else None
+
+    def _followed(self, case: Playing, graph: str) -> str | None:
+        """Return what the graph above plays."""
+        return self._driver(case, self._above(graph)[0]) if self._above(graph) else None
+
+    def _depth(self, graph: str) -> int:
+        return len(self._above(graph))
 
     def _driver(self, case: Playing, graph: str) -> str:
         playing = dict(case)
@@ -191,7 +227,7 @@ def commands(draw: st.DrawFn, library: Any) -> str:
     for graph in draw(st.lists(st.sampled_from(library.graphs), min_size=1, max_size=3, unique=True)):
         motions = draw(st.lists(st.sampled_from(library.motions(graph)), min_size=1, max_size=3, unique=True))
         parts.append(f"{graph} ({' or '.join(motions)})")
-    return " and ".join(parts)
+    return " and ".join(parts) + draw(st.sampled_from(["", "", "", " once"]))
 
 
 @st.composite
