@@ -36,21 +36,21 @@ class Doing:
     def begin(self, motion: str = "a") -> State:
         return flow.begin(self.names, motion)
 
-    def move(self, state: State, number: int = 0, **wanted: str) -> Move | Narrow | Stopped:
+    def move(self, state: State, number: int = 0, once: bool = False, **wanted: str) -> Move | Narrow | Stopped:
         """Ask for a command: by graph, the candidates as one word."""
         layers = [
             Layer(Named(graph, tuple(motions), "x", Kind.TAG, "x", Span(0, 1)), Span(at, at + 1))
             for at, (graph, motions) in enumerate(wanted.items())
         ]
-        return flow.move(layers, state, number, {}, (self.names, self.catalog))
+        return flow.move(layers, state, number, {}, (self.names, self.catalog), once)
 
-    def after(self, state: State, number: int = 0, **wanted: str) -> State:
-        moved = self.move(state, number, **wanted)
+    def after(self, state: State, number: int = 0, once: bool = False, **wanted: str) -> State:
+        moved = self.move(state, number, once, **wanted)
         assert isinstance(moved, Move), moved
         return moved.after
 
-    def candidates(self, state: State, **wanted: str) -> dict[str, str]:
-        moved = self.move(state, **wanted)
+    def candidates(self, state: State, once: bool = False, **wanted: str) -> dict[str, str]:
+        moved = self.move(state, 0, once, **wanted)
         assert isinstance(moved, Move), moved
         return {graph: "".join(motions) for graph, motions in moved.candidates.items()}
 
@@ -340,3 +340,29 @@ def test_what_a_later_command_has_ruled_out_is_not_taken(doing: Doing) -> None:
     assert isinstance(moved, Move)
     assert moved.candidates == {"Body": ("a",)}
     assert [out.reason for out in moved.left_out["Body"]] == ["later command"]
+
+
+# --- once ---
+
+
+def test_what_begins_anew_needs_no_way_there(catalog: Any) -> None:
+    doing = Doing(catalog, ("Body", "a", "b"), ("Top", "a", "t"))
+    assert isinstance(doing.move(doing.begin(), Body="b"), Stopped)
+    assert doing.candidates(doing.begin(), once=True, Body="b") == {"Body": "b"}
+    assert doing.candidates(doing.begin(), once=True, Top="t") == {"Top": "t"}
+    assert isinstance(doing.move(doing.begin(), once=True, Body="a", Top="t"), Stopped)
+
+
+def test_rule_1_holds_for_what_begins_anew(doing: Doing) -> None:
+    assert isinstance(doing.move(doing.begin("c"), once=True, Top="t"), Stopped)
+
+
+def test_what_begins_anew_ends_what_runs_below_it(catalog: Any) -> None:
+    running = Doing(catalog).after(Doing(catalog).begin(), Top="t")
+    from_t_alone = Doing(catalog, ("Top", "a", "u"))
+    assert from_t_alone.candidates(running, Body="a", Top="u")["Top"] == "u"
+    assert isinstance(from_t_alone.move(running, once=True, Body="a", Top="u"), Stopped)
+
+
+def test_a_part_that_begins_anew_runs_alone_even_if_the_body_plays_the_same(doing: Doing) -> None:
+    assert doing.after(doing.begin(), once=True, Top="a").parts["Top"].alone
