@@ -386,7 +386,9 @@ class _Mover:
     def _leads_on(self, graph: str, source: str) -> bool:
         """Return whether from a motion a candidate can be reached; being one is enough."""
         left = self.left[graph]
-        return graph == self.begins or source in left or any(self._reaches(graph, source, motion) for motion in left)
+        if graph == self.begins:
+            return bool(left)
+        return source in left or any(self._reaches(graph, source, motion) for motion in left)
 
     def _reaches(self, graph: str, source: str, target: str) -> bool:
         return self.catalog.can_reach(graph, source, target)

@@ -364,5 +364,12 @@ def test_what_begins_anew_ends_what_runs_below_it(catalog: Any) -> None:
     assert isinstance(from_t_alone.move(running, once=True, Body="a", Top="u"), Stopped)
 
 
+def test_what_has_nothing_left_to_begin_cannot(doing: Doing) -> None:
+    ruled_out = {"Body": {"b": LeftOut("b", "later command", "so")}}
+    layers = [Layer(Named("Body", ("b",), "x", Kind.TAG, "x", Span(0, 1)), Span(0, 1))]
+    library = (doing.names, doing.catalog)
+    assert isinstance(flow.move(layers, doing.begin(), 0, ruled_out, library, once=True), Stopped)
+
+
 def test_a_part_that_begins_anew_runs_alone_even_if_the_body_plays_the_same(doing: Doing) -> None:
     assert doing.after(doing.begin(), once=True, Top="a").parts["Top"].alone
