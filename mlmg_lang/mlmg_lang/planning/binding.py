@@ -26,15 +26,17 @@ class Scope:
     ----------
     definitions : the names that are defined where the expression stands; elsewhere they have been put in.
     open : whether a file that defines more could not be used.
+    parameters : of the definition that the expression stands in.
     """
 
     names: Names
     definitions: frozenset[str]
     open: bool
+    parameters: frozenset[str] = frozenset()
 
     def defines(self, name: syntax.Name) -> bool:
         """Return whether a name is one of the script's own."""
-        return normal(name.text) in self.definitions
+        return normal(name.text) in self.definitions or normal(name.text) in self.parameters
 
 
 @dataclass(frozen=True, slots=True)

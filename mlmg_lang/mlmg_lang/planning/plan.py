@@ -59,11 +59,11 @@ class _Planner:
         for let in definitions.lets.values():
             self.diagnostics += _clashes(let.name, self._scope.names)
             own = frozenset(normal(parameter.name.text) for parameter in let.parameters or ())
-            scope = replace(self._scope, definitions=known | own)
+            scope = replace(self._scope, definitions=known, parameters=own)
             self._report(unbound(let.command.motion, scope))
             for parameter in let.parameters or ():
                 if parameter.default is not None and not isinstance(parameter.default, syntax.Quantity):
-                    self._report(unbound(parameter.default, replace(scope, definitions=known)))
+                    self._report(unbound(parameter.default, replace(scope, parameters=frozenset())))
 
     def body(self, items: Iterable[syntax.Item]) -> tuple[typed.Statement, ...]:
         """Return the typed statements of a body."""
