@@ -49,6 +49,7 @@ class FakeCatalog:
         return self.on[graph][motion]
 
     def can_reach(self, graph: str, source: str, target: str) -> bool:
+        assert {source, target} <= set(self.on[graph]), f"a real library has no {source} and {target} on {graph}"
         return (graph, source, target) not in self.cut
 
     def unlikeness(self, graph: str, one: str, other: str) -> float:

@@ -348,9 +348,9 @@ class _Mover:
         return Stopped(graph, self.layers[graph].span, above, motions, by_rule_1, setter, not self.state.certain)
 
     def _kept(self, graph: str, above: str) -> frozenset[str]:
-        """Return what a part plays already, if the one above may stay as it is."""
+        """Return what a part plays already that is on its graph, if the one above may stay as it is."""
         own = self.state.parts.get(graph)
-        return frozenset() if own is None or not self._may_stay(above) else own.motions
+        return frozenset() if own is None or not self._may_stay(above) else own.motions & self._on(graph)
 
     def _arrived(self, graph: str, sources: frozenset[str], driving: frozenset[str]) -> Part:
         """Return what may drive a graph when it has arrived: any candidate.

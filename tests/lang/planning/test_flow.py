@@ -265,6 +265,13 @@ def test_a_part_that_runs_below_one_that_follows_goes_on_if_that_does(catalog: A
     assert isinstance(Doing(catalog, ("Hand", "u", "t")).move(running, Top="u", Hand="t"), Stopped)
 
 
+def test_a_part_that_followed_what_is_not_on_it_does_not_set_out_from_there(catalog: Any) -> None:
+    doing = Doing(catalog, ("Top", "a", "u"), ("Top", "b", "u"), ("Top", "t", "u"))
+    may_follow = doing.either(doing.after(doing.begin(), Top="t"), doing.begin("c"))
+    assert playing(may_follow)["Top"] == "ct"
+    assert doing.candidates(may_follow, Body="ab", Top="tu") == {"Body": "ab", "Top": "t"}
+
+
 # --- what is asked of earlier commands ---
 
 
