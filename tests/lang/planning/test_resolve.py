@@ -439,6 +439,17 @@ def test_a_mistake_in_a_body_is_told_once_however_often_it_goes_round(codes: Cod
     assert codes("repeat 3 { Upper-Body TALK; Idle_02; Upper-Body TALK }", reference) == ["MS040"]
 
 
+@pytest.mark.parametrize(
+    "form", ["{}; {}; {}; {}; {}", "repeat 1 {{ {}; {}; {} }}; {}; {}", "repeat 2 {{ WALK; {}; {}; {}; {} }}; {}"]
+)
+def test_a_narrowing_that_has_gone_well_is_not_taken_back_for_another(form: str, reference: Any) -> None:
+    script = form.format("IDLE", "wait 1 sec", "Upper-Body TALK", "Idle_02", "Upper-Body WAVE_HAND")
+    analysis = analyse(Source(script), reference)
+    (one,) = (one for one in analysis.diagnostics if one.severity == "error")
+    assert one.span is not None
+    assert analysis.source.slice(one.span) == "Upper-Body WAVE_HAND"
+
+
 def test_after_a_mistake_in_one_branch_anything_may_be_playing(codes: Codes, reference: Any) -> None:
     assert codes("choose { WLAK | WALK }; Upper-Body TALK; end Upper-Body", reference) == ["MS021"]
     assert codes("choose { WLAK | Idle_02 }; Upper-Body TALK; end Upper-Body", reference) == ["MS021", "MS040"]
