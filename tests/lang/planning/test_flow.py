@@ -314,6 +314,14 @@ def test_where_nothing_is_left_the_command_that_brought_it_is_named(doing: Doing
     assert (stopped.setter, stopped.motions, stopped.by_rule_1) == ((1, "Body"), ("c",), True)
 
 
+def test_a_graph_that_was_followed_is_named_where_it_was_set(doing: Doing) -> None:
+    either = doing.either(doing.after(doing.begin(), 1, Body="c"), doing.after(doing.begin(), 2, Top="u"))
+    assert playing(either)["Top"] == "cu"
+    stopped = doing.move(either, 5, Hand="h")
+    assert isinstance(stopped, Stopped)
+    assert (stopped.setter, stopped.above) == ((1, "Body"), "Body")
+
+
 def test_where_a_command_stands_in_its_own_way_it_is_said_so(doing: Doing) -> None:
     stopped = doing.move(doing.begin(), Body="c", Top="t")
     assert isinstance(stopped, Stopped)
