@@ -516,6 +516,21 @@ def test_an_and_is_shared_out_as_every_order_allows(catalog: Any) -> None:
 # --- how much work it is ---
 
 
+@pytest.fixture
+def counted_moves(monkeypatch: pytest.MonkeyPatch) -> list[int]:
+    """Return a list of one number: how often a command has been worked out since."""
+    moves = [0]
+    move = flow.move
+
+    def counted(*arguments: Any) -> Any:
+        moves[0] += 1
+        assert moves[0] < 100_000, "this goes on for ever"
+        return move(*arguments)
+
+    monkeypatch.setattr(flow, "move", counted)
+    return moves
+
+
 @pytest.mark.parametrize(
     ("script", "most"),
     [
@@ -531,16 +546,22 @@ def test_an_and_is_shared_out_as_every_order_allows(catalog: Any) -> None:
     ],
 )
 def test_a_command_is_looked_at_few_times_however_loops_are_nested(
-    script: str, most: int, reference: Any, monkeypatch: pytest.MonkeyPatch
+    script: str, most: int, reference: Any, counted_moves: list[int]
 ) -> None:
-    moves = 0
-    move = flow.move
-
-    def counted(*arguments: Any) -> Any:
-        nonlocal moves
-        moves += 1
-        return move(*arguments)
-
-    monkeypatch.setattr(flow, "move", counted)
     analyse(Source(script), reference)
-    assert 0 < moves <= most
+    assert 0 < counted_moves[0] <= most
+
+
+def test_a_loop_whose_end_takes_back_what_brought_it_about_is_done_with(catalog: Any, counted_moves: list[int]) -> None:
+    """With more that may be playing, the body can do less; then less may be playing, so it can do more; and so on."""
+    on = {"Body": ("b", "c", "d"), "Top": ("a", "b", "c", "d"), "Hand": ("a", "b", "c", "d")}
+    cut = {("Body", "d", "c"), ("Hand", "a", "b"), ("Hand", "a", "d"), *(("Top", "a", other) for other in "bcd")}
+    library = catalog(
+        {graph: dict.fromkeys(motions, ()) for graph, motions in on.items()},
+        {"Top": "Body", "Hand": "Top"},
+        start="b",
+        cut=frozenset(cut),
+    )
+    body = "Body (d or c) and Top (b or d) and Hand (c or d or b); end Top"
+    analyse(Source(f"Top (a or c or d); repeat 3 {{ {body} }}"), library)
+    assert counted_moves[0] < 20
