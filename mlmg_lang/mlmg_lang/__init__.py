@@ -5,8 +5,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
+# Not from typing: an interruption while that is imported, before a command has begun, would be a traceback.
+TYPE_CHECKING = False
 if TYPE_CHECKING:
     from mlmg_lang.catalog import Catalog
     from mlmg_lang.diagnostics import Diagnostic

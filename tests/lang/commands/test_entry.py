@@ -1,0 +1,55 @@
+"""Where the commands begin: what Ctrl-C does before they have begun."""
+
+import ast
+import subprocess
+import sys
+import tomllib
+from pathlib import Path
+
+import pytest
+
+# Ctrl-C while a module is imported: whoever looks for it is interrupted.
+_INTERRUPTED_AT = """
+import sys
+
+class Interrupts:
+    def find_spec(self, name, path=None, target=None):
+        if name == {module!r}:
+            raise KeyboardInterrupt
+
+sys.modules.pop({module!r}, None)
+sys.meta_path.insert(0, Interrupts())
+sys.argv[1:] = {arguments!r}
+from mlmg_lang.commands.entry import {command}
+sys.exit({command}())
+"""
+
+
+def interrupted_at(module: str, command: str, *arguments: str) -> subprocess.CompletedProcess[str]:
+    program = _INTERRUPTED_AT.format(module=module, command=command, arguments=list(arguments))
+    return subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=False)
+
+
+@pytest.mark.parametrize(
+    "module", ["mlmg_lang.commands.mlmgc", "argparse", "pathlib", "mlmg_lang.commands.console", "mlmg_runtime.errors"]
+)
+def test_mlmgc_that_is_interrupted_while_it_starts_leaves_quietly(module: str) -> None:
+    ended = interrupted_at(module, "mlmgc", "scene.ms", "-o", "out.bvh")
+    assert (ended.returncode, ended.stdout, ended.stderr) == (130, "", "mlmgc: interrupted\n")
+
+
+@pytest.mark.parametrize("module", ["mlmg_lang.commands.mlmg", "argparse", "mlmg_lang.commands.check"])
+def test_mlmg_that_is_interrupted_while_it_starts_leaves_quietly(module: str) -> None:
+    ended = interrupted_at(module, "mlmg", "check", "scene.ms")
+    assert (ended.returncode, ended.stdout, ended.stderr) == (130, "", "mlmg: interrupted\n")
+
+
+def test_little_is_imported_before_an_interruption_is_caught() -> None:
+    program = "import sys; before = set(sys.modules); import mlmg_lang.commands.entry; print(set(sys.modules) - before)"
+    found = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True).stdout
+    assert ast.literal_eval(found) == {"__future__", "mlmg_lang", "mlmg_lang.commands", "mlmg_lang.commands.entry"}
+
+
+def test_the_commands_begin_there() -> None:
+    scripts = tomllib.loads(Path(__file__).parents[3].joinpath("pyproject.toml").read_text())["project"]["scripts"]
+    assert scripts == {"mlmgc": "mlmg_lang.commands.entry:mlmgc", "mlmg": "mlmg_lang.commands.entry:mlmg"}
