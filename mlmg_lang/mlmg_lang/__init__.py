@@ -8,6 +8,8 @@ from __future__ import annotations
 # Not from typing: an interruption while that is imported, before a command has begun, would be a traceback.
 TYPE_CHECKING = False
 if TYPE_CHECKING:
+    from typing import Literal
+
     from mlmg_lang.catalog import Catalog
     from mlmg_lang.diagnostics import Diagnostic
     from mlmg_lang.perform import Performance
@@ -18,19 +20,33 @@ __all__ = ["compile", "play"]
 
 
 def compile(
-    text: str, library: Catalog, start: str | None = None
+    text: str, library: Catalog, start: str | None = None, *, plan: Literal["greedy", "global"] = "greedy"
 ) -> tuple[ResolvedPlan | None, tuple[Diagnostic, ...]]:
     """Return the plan of a script and what is to be said of it; the plan is None if there are errors.
 
     Parameters
     ----------
     text : a script. library : what its names mean. start : the motion of the whole body to start in.
+    plan : "greedy" chooses motions command by command; "global" over the whole script, for the least time and cost on
+        the way. A script that repeats or chooses, or gains nothing by it, is planned greedily all the same (`ahead`).
+
+    Raises
+    ------
+    TypeError
+        If `plan` is "global" and `library` has not been opened from a file.
     """
     from mlmg_lang.front_end import analyse
     from mlmg_lang.source import Source
 
     analysis = analyse(Source(text), library, start=start)
-    return analysis.resolved, analysis.diagnostics
+    if plan == "greedy" or analysis.resolved is None:
+        return analysis.resolved, analysis.diagnostics
+    from mlmg_lang.looking_ahead import look_ahead
+    from mlmg_runtime.library import Library
+
+    if not isinstance(library, Library):
+        raise TypeError(f"planning over the whole script asks for an opened library, not for {type(library).__name__}")
+    return look_ahead(analysis.resolved, library).plan, analysis.diagnostics
 
 
 def play(plan: ResolvedPlan, library: Library, seed: int = 0) -> Performance:

@@ -87,6 +87,7 @@ def perform(
         "frame_rate": rate,
         "n_frames": poses.n_frames,
         "seed": seed,
+        "plan": "global" if plan.ahead else "greedy",
         "up": library.up,
         "commands": [
             _command_entry(plan, step, ratio, poses.n_frames)

@@ -56,7 +56,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--plan",
         choices=("greedy", "global"),
         default="greedy",
-        help="how motions are chosen: command by command (greedy, as it is played), or over the whole script",
+        help="how motions are chosen: command by command (greedy), or over the whole script; as for mlmgc",
     )
     parser.add_argument("--format", choices=FORMATS, default="text", help="how it is told")
     parser.add_argument("-o", "--output", metavar="FILE", default="-", help="the file to write; - for standard output")
@@ -69,6 +69,7 @@ def run(arguments: argparse.Namespace) -> int:
     from mlmg_lang.explaining.explain import explanation_from_analysis
     from mlmg_lang.front_end import analyse
     from mlmg_lang.libraries import find_library
+    from mlmg_lang.looking_ahead import look_ahead
     from mlmg_lang.script_files import read_script, used_files
 
     path = find_library(arguments.script, arguments.library)
@@ -88,7 +89,8 @@ def run(arguments: argparse.Namespace) -> int:
         tell(f"mlmg explain: error: {source.name}: there is nothing to play; expected a command, as `WALK for 10 sec`")
         return WRONG_CONTENT
     seed = arguments.seed if arguments.analyze else None
-    explanation = explanation_from_analysis(analysis, library, arguments.start, arguments.plan == "global", seed)
+    ahead = look_ahead(analysis.resolved, library) if arguments.plan == "global" else None
+    explanation = explanation_from_analysis(analysis, library, arguments.start, ahead, seed)
     _write(explanation, arguments.format, arguments.output)
     return DONE
 

@@ -33,6 +33,7 @@ if TYPE_CHECKING:
     from mlmg_lang.commands.watching import Stamp
     from mlmg_lang.diagnostics import Diagnostic
     from mlmg_lang.perform import Performance
+    from mlmg_lang.planning.resolved import ResolvedPlan
     from mlmg_lang.source import Source
     from mlmg_runtime.library import Library
 
@@ -42,6 +43,7 @@ Compiles a script of Motion Script, plays it on a library of motions, and writes
 examples:
   mlmgc stroll.ms --library my.mlmg -o stroll.bvh
   mlmgc stroll.ms -o stroll.bvh --report stroll.json    what plays when, and why
+  mlmgc stroll.ms -o stroll.bvh --plan global           choose motions over the whole script, for less on the way
   mlmgc stroll.ms -o stroll.bvh --watch                 again at every save
   echo "WALK for 10 sec" | mlmgc - -o - > walk.bvh      standard input and output
 
@@ -74,6 +76,12 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--library", metavar="L.mlmg", type=Path, help="the library to play on")
     parser.add_argument("--start", metavar="MOTION", help="the motion of the whole body to start in")
     parser.add_argument("--seed", metavar="N", type=int, default=0, help="for what is drawn by chance (0)")
+    parser.add_argument(
+        "--plan",
+        choices=("greedy", "global"),
+        default="greedy",
+        help="how motions are chosen: command by command (greedy, which is the default), or over the whole script",
+    )
     parser.add_argument("--report", metavar="R.json", help="write what plays when; - writes standard output")
     parser.add_argument("--fps", metavar="N", type=frame_rate, help="frames a second of the motion; the library's")
     parser.add_argument(
@@ -157,11 +165,22 @@ def _play(arguments: argparse.Namespace, inputs: Inputs, libraries: Libraries, s
         return WRONG_CONTENT
     from mlmg_lang.perform import perform
 
-    performance = perform(analysis.resolved, library, arguments.seed, arguments.fps, arguments.blend)
+    plan = _ahead(analysis.resolved, library) if arguments.plan == "global" else analysis.resolved
+    performance = perform(plan, library, arguments.seed, arguments.fps, arguments.blend)
     _write(performance, arguments.output, arguments.report)
     if arguments.output != "-":
         sum_up(f"{arguments.output}: {_summary(performance.report)}")
     return DONE
+
+
+def _ahead(plan: ResolvedPlan, library: Library) -> ResolvedPlan:
+    """Return a plan whose motions are chosen over the whole script, or the plan itself, and say why."""
+    from mlmg_lang.looking_ahead import look_ahead
+
+    ahead = look_ahead(plan, library)
+    if not ahead.planned:
+        tell(f"mlmgc: note: motions are chosen command by command: {ahead.because}")
+    return ahead.plan
 
 
 @dataclass(slots=True)

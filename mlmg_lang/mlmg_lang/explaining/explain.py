@@ -16,7 +16,7 @@ from mlmg_lang.front_end import Analysis
 from mlmg_lang.parsing import syntax
 from mlmg_lang.perform import rehearse
 from mlmg_lang.planning import flow, resolved, typed
-from mlmg_lang.planning.ahead import plan_ahead
+from mlmg_lang.planning.ahead import Ahead
 from mlmg_lang.planning.estimate import NO_TIME, Estimate
 from mlmg_lang.planning.forecast import Forecast, Outcome, Passage, chances_of, forecast
 from mlmg_lang.planning.names import Names
@@ -33,7 +33,7 @@ def explanation_from_analysis(
     analysis: Analysis,
     library: Library,
     start: str | None = None,
-    look_ahead: bool = False,
+    ahead: Ahead | None = None,
     seed: int | None = None,
 ) -> told.Explanation:
     """Return what a script without mistakes will do on the library that it was analysed against, and why.
@@ -41,7 +41,7 @@ def explanation_from_analysis(
     Parameters
     ----------
     start : as it was given to the analysis.
-    look_ahead : whether candidates are chosen over the whole script, not command by command.
+    ahead : what looking ahead over the whole script has made of the plan, if that is what is played.
     seed : to play the script with, so that the explanation tells what happened; None: it is not played.
 
     Raises
@@ -56,8 +56,8 @@ def explanation_from_analysis(
     names, travel = Names(library), MotionTravel(library)
     resolution = resolve(analysis.plan, names, library, analysis.source, start)
     plan, gain = resolution.plan, None
-    if look_ahead:
-        plan, gain = _ahead(resolution.plan, names, travel, library, seed)
+    if ahead is not None:
+        plan, gain = ahead.plan, _gain(ahead, resolution.plan, (names, library, travel), seed)
     expected = forecast(plan, names, travel)
     played, executions = (None, {}) if seed is None else _play(plan, library, seed)
     explainer = _Explainer(analysis, (names, library, travel), resolution, expected, executions)
@@ -67,7 +67,7 @@ def explanation_from_analysis(
         library.frame_rate,
         plan.start,
         _start_because(analysis.plan, plan.start, start, names, library),
-        "global" if look_ahead else "greedy",
+        "greedy" if ahead is None else "global",
         explainer.body(plan.statements, is_last=True),
         _totals(expected.whole),
         gain,
@@ -75,14 +75,14 @@ def explanation_from_analysis(
     )
 
 
-def _ahead(
-    plan: resolved.ResolvedPlan, names: Names, travel: MotionTravel, library: Library, seed: int | None
-) -> tuple[resolved.ResolvedPlan, told.Gain]:
-    """Return a plan made over the whole script, and what is gained by that."""
+def _gain(
+    ahead: Ahead, plan: resolved.ResolvedPlan, known: tuple[Names, Library, MotionTravel], seed: int | None
+) -> told.Gain:
+    """Return what is gained by looking ahead over playing a plan as it is."""
+    names, library, travel = known
     greedy = _totals(forecast(plan, names, travel).whole)
-    ahead = plan_ahead(plan, names, travel)
     played = None if seed is None else _play(plan, library, seed)[0]
-    return ahead.plan, told.Gain(ahead.planned, ahead.because, greedy, played)
+    return told.Gain(ahead.planned, ahead.because, greedy, played)
 
 
 def _play(plan: resolved.ResolvedPlan, library: Library, seed: int) -> tuple[told.Played, _Executions]:

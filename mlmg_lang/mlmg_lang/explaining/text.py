@@ -348,7 +348,8 @@ def _left_out(layer: Layer) -> Iterator[Tree]:
 
 
 def _reason(reason: str) -> str:
-    return {"rule 1": "rule 1", "later command": "a later command"}.get(reason, "the graph's transitions")
+    named = {"rule 1": "rule 1", "later command": "a later command", "look ahead": "looking ahead"}
+    return named.get(reason, "the graph's transitions")
 
 
 # --- what happened ---

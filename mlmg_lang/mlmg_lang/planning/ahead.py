@@ -14,7 +14,7 @@ from mlmg_lang.planning.course import Course, World, bring, end_part
 from mlmg_lang.planning.estimate import Travel
 from mlmg_lang.planning.forecast import afterwards, at_start, lasting
 from mlmg_lang.planning.names import Names
-from mlmg_lang.planning.resolved import Choose, Command, End, Repeat, ResolvedPlan, Statement, Wait
+from mlmg_lang.planning.resolved import Choose, Command, End, LeftOut, Repeat, ResolvedPlan, Statement, Wait
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,7 +57,8 @@ def plan_ahead(plan: ResolvedPlan, names: Names, travel: Travel) -> Ahead:
             return Ahead(plan, False, "no choice of candidates is sure to be possible", 0.0)
     best = min(ways.values(), key=lambda way: way.price)
     taken = list(_taken(best))[::-1]
-    return Ahead(replace(plan, statements=_narrowed(plan.statements, taken, names)), True, "", best.price)
+    narrowed = _narrowed(plan.statements, taken, names)
+    return Ahead(replace(plan, statements=narrowed, ahead=True), True, "", best.price)
 
 
 def _after(
@@ -124,4 +125,6 @@ def _narrowed(statements: Sequence[Statement], taken: Sequence[str], names: Name
 def _with_candidate(command: Command, motion: str) -> Command:
     """Return a command with one candidate on its topmost graph."""
     top, *others = command.layers
-    return replace(command, layers=(replace(top, candidates=(motion,)), *others))
+    because = f"over the whole script `{motion}` comes to less"
+    out = tuple(LeftOut(other, "look ahead", because) for other in top.candidates if other != motion)
+    return replace(command, layers=(replace(top, candidates=(motion,), left_out=top.left_out + out), *others))

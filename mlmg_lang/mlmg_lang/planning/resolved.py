@@ -14,7 +14,7 @@ class LeftOut:
 
     Attributes
     ----------
-    reason : `rule 1`, `unreachable` or `later command`.
+    reason : `rule 1`, `unreachable`, `later command` or `look ahead`.
     because : the same in words, with the graph or line that it is about.
     """
 
@@ -129,8 +129,10 @@ class ResolvedPlan:
     ----------
     start : the motion of the root graph that the character starts in, at its first frame.
     statements : in the order of the text, which is that of execution but for `repeat` and `choose`.
+    ahead : whether the root graph's candidates have been chosen over the whole script, not command by command.
     """
 
     source: Source
     start: str
     statements: tuple[Statement, ...]
+    ahead: bool = False

@@ -191,3 +191,17 @@ def test_a_cache_that_cannot_be_used_is_one_line_that_names_it_and_its_variable(
     assert capsys.readouterr().err == (
         "mlmgc: error: scene.ms: Not a directory; the demo library is kept here because MLMG_CACHE says so\n"
     )
+
+
+def test_motions_are_chosen_over_the_whole_script_where_that_is_asked_for(scene):
+    assert compiled("-o", "a.bvh", "--report", "a.json") == 0
+    assert compiled("-o", "b.bvh", "--report", "b.json", "--plan", "global") == 0
+    plans = [json.loads((scene / name).read_text(encoding="utf-8"))["plan"] for name in ("a.json", "b.json")]
+    assert plans == ["greedy", "global"]
+
+
+def test_what_is_not_planned_over_the_whole_script_is_played_and_said(scene, capsys):
+    (scene / "scene.ms").write_text("Stand for 1 sec\nrepeat 2 { WALK for 1 sec }\n")
+    assert compiled("-o", "b.bvh", "--report", "b.json", "--plan", "global") == 0
+    assert "mlmgc: note: motions are chosen command by command: the script repeats" in capsys.readouterr().err
+    assert json.loads((scene / "b.json").read_text(encoding="utf-8"))["plan"] == "greedy"

@@ -14,7 +14,10 @@ from hypothesis import strategies as st
 
 from mlmg_lang.explaining.explain import explanation_from_analysis
 from mlmg_lang.explaining.explanation import Explanation
+from mlmg_lang.explaining.travel import MotionTravel
 from mlmg_lang.front_end import Analysis, analyse
+from mlmg_lang.planning.ahead import Ahead, plan_ahead
+from mlmg_lang.planning.names import Names
 from mlmg_lang.source import Source
 from mlmg_runtime.library import Library
 from mlmg_runtime.motion_graph import TRANSITION, MotionGraph
@@ -98,8 +101,16 @@ def made_library() -> Library:
 def explained(made_library: Library) -> Callable[..., Explanation]:
     """Return a function: script, and what the explanation takes besides -> its explanation on the made library."""
 
-    def explain(text: str, library: Library = made_library, start: str | None = None, **options: Any) -> Explanation:
-        return explanation_from_analysis(analysed(text, library, start), library, start, **options)
+    def explain(
+        text: str,
+        library: Library = made_library,
+        start: str | None = None,
+        look_ahead: bool = False,
+        seed: int | None = None,
+    ) -> Explanation:
+        analysis = analysed(text, library, start)
+        ahead = looked_ahead(analysis, library) if look_ahead else None
+        return explanation_from_analysis(analysis, library, start, ahead, seed)
 
     return explain
 
@@ -108,6 +119,11 @@ def analysed(text: str, library: Library, start: str | None = None) -> Analysis:
     analysis = analyse(Source(text, "script.ms"), library, start)
     assert analysis.resolved is not None, [one.message for one in analysis.diagnostics]
     return analysis
+
+
+def looked_ahead(analysis: Analysis, library: Library) -> Ahead:
+    assert analysis.resolved is not None
+    return plan_ahead(analysis.resolved, Names(library), MotionTravel(library))
 
 
 # --- explanations of any kind ---

@@ -11,7 +11,10 @@ from mlmg_lang.explaining.explanation import Command
 from mlmg_lang.explaining.mermaid import render_mermaid
 from mlmg_lang.explaining.plan_json import plan_from_json, plan_to_json
 from mlmg_lang.explaining.text import render_text
+from mlmg_lang.explaining.travel import MotionTravel
 from mlmg_lang.front_end import analyse
+from mlmg_lang.planning.ahead import plan_ahead
+from mlmg_lang.planning.names import Names
 from mlmg_lang.script_files import used_files
 from mlmg_lang.source import Source
 
@@ -185,6 +188,9 @@ def test_planning_over_the_whole_script_tells_what_it_gains(explained, made_libr
     assert ahead.gain.greedy == greedy.totals
     assert ahead.totals.under_way + ahead.totals.cost < greedy.totals.under_way + greedy.totals.cost
     assert all(len(one.layers[0].candidates) == 1 for one in ahead.statements)
+    walk = ahead.statements[1].layers[0]
+    assert {one.motion for one in walk.left_out} == {"Walk_01", "Walk_02", "Walk_03"} - {walk.candidates[0].motion}
+    assert {one.reason for one in walk.left_out} == {"look ahead"}
 
 
 def test_where_it_cannot_plan_over_the_whole_script_it_says_so(explained):
@@ -275,7 +281,8 @@ def test_whatever_a_script_says_it_is_explained(body, start, ahead, made_library
     analysis = analyse(Source(body, "script.ms"), made_library, start)
     if analysis.resolved is None:
         return
-    told = explanation_from_analysis(analysis, made_library, start, ahead)
+    planned = plan_ahead(analysis.resolved, Names(made_library), MotionTravel(made_library)) if ahead else None
+    told = explanation_from_analysis(analysis, made_library, start, planned)
     check_sense(told, flat)
     assert plan_from_json(plan_to_json(told)) == told
     assert render_text(told)

@@ -39,7 +39,7 @@ def combinations(plan: ResolvedPlan, names: Names) -> Iterator[ResolvedPlan]:
         for one in plan.statements
     ]
     for statements in product(*options):
-        yield replace(plan, statements=tuple(statements))
+        yield replace(plan, statements=tuple(statements), ahead=True)
 
 
 def price(plan: ResolvedPlan, names: Names, travel: Travel) -> float:
