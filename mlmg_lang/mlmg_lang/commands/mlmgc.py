@@ -96,9 +96,17 @@ def _parser() -> argparse.ArgumentParser:
 def _run(arguments: argparse.Namespace) -> int:
     if arguments.output == "-" and arguments.report == "-":
         raise UsageError("the motion and the report cannot both go to standard output")
+    _refuse_other_formats(arguments.output)
     if arguments.watch:
         return _watch(arguments)
     return _play(arguments, Inputs(), Libraries(), tell)
+
+
+def _refuse_other_formats(output: str) -> None:
+    """Raise `UsageError` for a name that promises anything but BVH; a name without an ending promises nothing."""
+    ending = Path(output).suffix
+    if ending.lower() not in ("", ".bvh"):
+        raise UsageError(f"{output}: a motion is written as BVH; expected a name that ends in .bvh, found {ending}")
 
 
 def _watch(arguments: argparse.Namespace) -> int:

@@ -105,6 +105,8 @@ def test_an_empty_script_says_what_a_script_is(scene, capsys):
         (["scene.ms", "--library", "my.mlmg", "-o", "no/o.bvh"], 2, "no/o.bvh: No such file or directory"),
         (["scene.ms", "--library", "Stand.bvh", "-o", "o.bvh"], 1, "Stand.bvh: "),
         (["scene.ms", "--library", "my.mlmg", "-o", "-", "--report", "-"], 2, "standard output"),
+        (["scene.ms", "--library", "my.mlmg", "-o", "o.fbx"], 2, "o.fbx: a motion is written as BVH; expected a name"),
+        (["scene.ms", "--library", "my.mlmg", "-o", "o.fbx", "--watch"], 2, "that ends in .bvh, found .fbx"),
     ],
 )
 def test_what_cannot_be_opened_or_is_wrong_is_one_line(scene, capsys, arguments, code, message):
@@ -112,6 +114,12 @@ def test_what_cannot_be_opened_or_is_wrong_is_one_line(scene, capsys, arguments,
     err = capsys.readouterr().err
     assert message in err
     assert err.count("\n") == 1
+
+
+@pytest.mark.parametrize("name", ["out", "out.BVH", "走路 1.bvh"])
+def test_a_name_that_promises_no_other_format_is_written_to(scene, name):
+    assert compiled("-o", name) == 0
+    assert bvh.read(scene / name).n_channels == 15
 
 
 def test_a_script_that_is_no_text_is_one_diagnostic(scene, capsys):
