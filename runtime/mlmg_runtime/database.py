@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import errno
 import json
+import os
 import sqlite3
-from contextlib import closing
+from collections.abc import Iterator
+from contextlib import closing, contextmanager
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
@@ -54,7 +57,7 @@ def write_database(built: BuiltLibrary, path: Path) -> None:
     """
     with atomic_output(path) as temporary:
         Path(temporary).unlink(missing_ok=True)
-        with closing(sqlite3.connect(temporary)) as connection, connection:
+        with _system_errors(path), closing(sqlite3.connect(temporary)) as connection, connection:
             connection.executescript(_SCHEMA)
             connection.execute(f"PRAGMA application_id = {APPLICATION_ID}")
             connection.execute(f"PRAGMA user_version = {FORMAT_VERSION}")
@@ -63,6 +66,17 @@ def write_database(built: BuiltLibrary, path: Path) -> None:
             _write_graphs(connection, built)
             checksums = [(part, checksum_of(connection.execute(query))) for part, query in PARTS.items()]
             connection.executemany("INSERT INTO checksum VALUES (?, ?)", checksums)
+
+
+@contextmanager
+def _system_errors(path: Path) -> Iterator[None]:
+    """Raise what SQLite says of a disk as the system would: SQLite's own error tells no cause and names no file."""
+    try:
+        yield
+    except sqlite3.OperationalError as error:
+        is_full = error.sqlite_errorcode == sqlite3.SQLITE_FULL
+        cause = (errno.ENOSPC, os.strerror(errno.ENOSPC)) if is_full else (errno.EIO, str(error))
+        raise OSError(*cause, str(path)) from error
 
 
 def _write_properties(connection: sqlite3.Connection, built: BuiltLibrary) -> None:

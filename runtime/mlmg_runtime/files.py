@@ -22,7 +22,8 @@ def atomic_output(path: str | Path) -> Iterator[Path]:
     Raises
     ------
     OSError
-        If `path` is a folder, may not be written, or no file can be made beside it; the error names `path`.
+        If `path` is a folder, may not be written, no file can be made beside it, or the disk is full; the error
+        names `path`.
     """
     if _is_device(path):
         yield Path(path)
@@ -34,8 +35,10 @@ def atomic_output(path: str | Path) -> Iterator[Path]:
         if target.exists():
             beside.chmod(stat.S_IMODE(target.stat().st_mode))
         os.replace(beside, target)
-    except BaseException:
+    except BaseException as error:
         beside.unlink(missing_ok=True)
+        if isinstance(error, OSError) and error.errno is not None and error.filename is None:
+            error.filename = str(path)
         raise
 
 

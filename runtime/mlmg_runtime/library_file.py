@@ -19,6 +19,9 @@ from mlmg_runtime.errors import LibraryError
 APPLICATION_ID = 0x6D6C6D67
 FORMAT_VERSION = 2
 
+# SQLite puts a whole damaged column into its message.
+_LONGEST_REASON = 60
+
 # What is read when a library is opened, in the order of the rows' writing.
 PARTS = {
     "property": "SELECT name, value FROM property ORDER BY rowid",
@@ -58,10 +61,11 @@ def open_database(path: Path) -> Iterator[sqlite3.Connection]:
             _check_file(connection, path)
             yield connection
     except (sqlite3.DatabaseError, UnicodeDecodeError) as error:  # the latter: a damaged schema in a message
+        reason = str(error)[:_LONGEST_REASON]
         raise LibraryError(
             path,
             None,
-            f"not a readable library ({error}); expected a file that `mlmg build` wrote: build it again",
+            f"not a readable library ({reason}); expected a file that `mlmg build` wrote: build it again",
         ) from None
 
 

@@ -72,6 +72,12 @@ def test_the_ending_says_what_is_written(folder, capsys):
     assert capsys.readouterr().out == ""
 
 
+def test_a_name_that_is_no_text_is_shown_with_question_marks(folder):
+    (folder / "str\udcff.bvh").write_bytes((folder / "stroll.bvh").read_bytes())
+    assert view("str\udcff.bvh", "-o", "x.html") == 0
+    assert "<title>str?" in (folder / "x.html").read_text(encoding="utf-8")
+
+
 def test_an_unknown_ending_is_an_error_that_lists_the_known(folder, capsys):
     assert view("stroll.bvh", "-o", "x.mp4") == 2
     assert capsys.readouterr().err == (

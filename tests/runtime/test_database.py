@@ -1,3 +1,4 @@
+import errno
 import os
 import random
 import signal
@@ -212,6 +213,18 @@ def test_a_write_that_fails_leaves_the_old_file_and_nothing_else(
                 write_database(built, path)
         assert path.read_bytes() == before
         assert os.listdir(path.parent) == [path.name]
+
+
+def test_a_full_disk_is_the_operating_systems_to_tell(
+    path: Path, built: BuiltLibrary, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    before = path.read_bytes()
+    monkeypatch.setattr(database, "_SCHEMA", f"PRAGMA max_page_count = 20; {database._SCHEMA}")
+    with pytest.raises(OSError, match="No space left") as caught:
+        write_database(built, path)
+    assert (caught.value.errno, caught.value.filename) == (errno.ENOSPC, str(path))
+    assert path.read_bytes() == before
+    assert os.listdir(path.parent) == [path.name]
 
 
 KILLED = """\

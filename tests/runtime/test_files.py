@@ -1,3 +1,4 @@
+import errno
 import os
 import stat
 import threading
@@ -34,6 +35,12 @@ def test_after_an_error_nothing_has_happened(error: type[BaseException], tmp_pat
             write_half(target, error)
     assert path.read_text() == "old"
     assert list(tmp_path.iterdir()) == [path]
+
+
+def test_an_error_while_it_is_written_names_the_file_that_was_asked_for(tmp_path: Path) -> None:
+    with pytest.raises(OSError, match="No space") as caught, atomic_output(tmp_path / "out.txt"):
+        raise OSError(errno.ENOSPC, "No space left on device")
+    assert caught.value.filename == str(tmp_path / "out.txt")
 
 
 def test_a_new_file_gets_the_permissions_of_any_new_file(tmp_path: Path) -> None:

@@ -133,7 +133,10 @@ def seldom_collect() -> None:
 
 
 def utf8_streams() -> None:
-    """Make standard input, output and error speak UTF-8, whatever the locale."""
+    """Make standard input, output and error speak UTF-8, whatever the locale; one that is closed is as if empty."""
+    for name, mode in (("stdin", "r"), ("stdout", "w"), ("stderr", "w")):
+        if getattr(sys, name) is None:
+            setattr(sys, name, open(os.devnull, mode, encoding="utf-8"))  # noqa: SIM115
     for stream in (sys.stdin, sys.stdout, sys.stderr):
         if hasattr(stream, "reconfigure"):
             stream.reconfigure(encoding="utf-8", errors="surrogateescape" if stream is sys.stdin else "replace")

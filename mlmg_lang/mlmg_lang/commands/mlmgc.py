@@ -96,7 +96,6 @@ def _parser() -> argparse.ArgumentParser:
 def _run(arguments: argparse.Namespace) -> int:
     if arguments.output == "-" and arguments.report == "-":
         raise UsageError("the motion and the report cannot both go to standard output")
-    _refuse_other_formats(arguments.output)
     if arguments.watch:
         return _watch(arguments)
     return _play(arguments, Inputs(), Libraries(), tell)
@@ -156,6 +155,7 @@ def _play(arguments: argparse.Namespace, inputs: Inputs, libraries: Libraries, s
     library_path = find_library(arguments.script, arguments.library)
     outputs = [arguments.output, arguments.report]
     refuse_overwriting(outputs, [arguments.script, library_path])
+    _refuse_other_formats(arguments.output)
     refuse_unwritable(outputs)
     source, unreadable = read_script(arguments.script)
     if unreadable:

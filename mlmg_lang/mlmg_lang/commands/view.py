@@ -151,11 +151,11 @@ def _motions(arguments: argparse.Namespace, progress: ProgressLine) -> list[_Mot
     from mlmg_runtime.view.captions import Story
 
     paths = arguments.motions
-    stems = Counter(Path(path).stem for path in paths)
+    stems = Counter(_letters(Path(path).stem) for path in paths)
     motions = []
     for index, path in enumerate(paths):
-        stem = Path(path).stem
-        name = _PIPED if path == _STANDARD_INPUT else stem if stems[stem] == 1 else path
+        stem = _letters(Path(path).stem)
+        name = _PIPED if path == _STANDARD_INPUT else stem if stems[stem] == 1 else _letters(path)
         progress("reading", index, len(paths))
         bvh = _read(path)
         progress.clear()
@@ -165,6 +165,11 @@ def _motions(arguments: argparse.Namespace, progress: ProgressLine) -> list[_Mot
         told = story.up if story is not None else None
         motions.append(_Motion(path, name, bvh, arguments.up or told or "y", story or Story()))
     return motions
+
+
+def _letters(name: str) -> str:
+    """Return the name of a file as text; bytes that are none become question marks."""
+    return name.encode("utf-8", "replace").decode("utf-8")
 
 
 def _read(path: str) -> Bvh:

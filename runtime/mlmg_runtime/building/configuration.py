@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 import unicodedata
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
@@ -12,6 +13,8 @@ from typing import Any, NoReturn
 from mlmg_runtime.building.toml_files import TomlFile, did_you_mean, read_toml
 from mlmg_runtime.building.toml_lines import KeyPath
 from mlmg_runtime.errors import ConfigurationError
+
+_LINE_BREAK = re.compile("[\r\n]")
 
 DEFAULT_WINDOW = 20
 METRICS = ("point-cloud",)
@@ -317,6 +320,8 @@ class _Reader:
                         )
                     if not tag:
                         self._fail(("tags", graph.name, motion), "a tag must not be empty")
+                    if _LINE_BREAK.search(tag):
+                        self._fail(("tags", graph.name, motion), f"a tag must stand on one line, found {tag!r}")
 
     # Groups and transitions
 
@@ -421,7 +426,7 @@ class _Reader:
     def _positive(self, table: dict[str, Any], at: KeyPath) -> float | None:
         value = table.get(str(at[-1]))
         if value is not None and not (_is_number(value) and 0 < value <= 10000):
-            self._fail(at, f"{at[-1]} must be a number above 0, found {value!r}")
+            self._fail(at, f"{at[-1]} must be a number above 0, at most 10000, found {value!r}")
         return None if value is None else float(value)
 
     def _fail(self, at: KeyPath, message: str) -> NoReturn:

@@ -20,8 +20,10 @@ from mlmg_runtime.skeleton import Poses, Skeleton, has_positions
 # must be the metre: a person's bones, laid end to end, are about 4 m long.
 OFFSET_TOLERANCE = 0.05
 _BONES_IN_METRES = 20.0
-# Frames a second. A file with fewer has its frame time in another unit: resampled, it would fill the memory.
+# Frames a second. A file with fewer has its frame time in another unit: resampled, it would fill the memory. One with
+# more, if it is the first, would give its rate to all the others, which would.
 SLOWEST_RATE = 1.0
+FASTEST_RATE = 10000.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,19 +56,23 @@ def load_clips(configuration: LibraryConfiguration, progress: Callable[[int, int
         if skeleton is None:
             skeleton = own
         _check_agreement(skeleton, configuration.clips[0], own, clip)
-        rate = 1.0 / document.frame_time_s
-        if rate < SLOWEST_RATE:
-            raise LibraryError(
-                clip.path,
-                None,
-                f"a frame lasts {document.frame_time_s:g} s; expected at most 1: is it in milliseconds?",
-            )
+        rate = _rate(document, clip)
         frame_rate = frame_rate or _usual(rate)
         poses[clip.name] = _poses(configuration, clip, document, skeleton, rate, frame_rate)
     progress(len(configuration.clips), len(configuration.clips))
     assert skeleton is not None  # a configuration has at least one clip
     assert frame_rate is not None
     return Clips(skeleton, frame_rate, poses, tuple(warnings))
+
+
+def _rate(document: Bvh, clip: ClipSource) -> float:
+    """Return the frames a second of a clip, if these can be meant."""
+    lasts = f"a frame lasts {document.frame_time_s:g} s; expected"
+    if document.frame_time_s * SLOWEST_RATE > 1.0:
+        raise LibraryError(clip.path, None, f"{lasts} at most {1.0 / SLOWEST_RATE:g}: is it in milliseconds?")
+    if document.frame_time_s * FASTEST_RATE < 1.0:
+        raise LibraryError(clip.path, None, f"{lasts} at least {1.0 / FASTEST_RATE:g}")
+    return 1.0 / document.frame_time_s
 
 
 def _poses(

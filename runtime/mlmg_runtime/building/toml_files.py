@@ -65,6 +65,8 @@ def read_toml(path: Path) -> TomlFile:
         line = data[: error.start].count(b"\n") + 1
         message = "found bytes that are not UTF-8; a configuration is a UTF-8 text"
         raise ConfigurationError(path, line, message) from None
+    except RecursionError:
+        raise ConfigurationError(path, None, "too many brackets stand inside each other") from None
     except tomllib.TOMLDecodeError as error:
         what, _, where = str(error).rpartition(" (at ")
         number = where.removeprefix("line ").split(",")[0]

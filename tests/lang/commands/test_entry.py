@@ -1,4 +1,4 @@
-"""Where the commands begin: what Ctrl-C does before they have begun."""
+"""How the commands begin: what Ctrl-C does before they have begun, and standard streams that are closed."""
 
 import ast
 import subprocess
@@ -53,3 +53,23 @@ def test_little_is_imported_before_an_interruption_is_caught() -> None:
 def test_the_commands_begin_there() -> None:
     scripts = tomllib.loads(Path(__file__).parents[3].joinpath("pyproject.toml").read_text())["project"]["scripts"]
     assert scripts == {"mlmgc": "mlmg_lang.commands.entry:mlmgc", "mlmg": "mlmg_lang.commands.entry:mlmg"}
+
+
+@pytest.mark.parametrize(
+    ("closed", "arguments", "code"),
+    [
+        (">&-", ["mlmg", "rule", "MS021"], 0),
+        (">&-", ["mlmg", "check", "-"], 0),
+        ("<&-", ["mlmgc", "-", "-o", "out.bvh"], 1),
+        ("2>&-", ["mlmgc", "none.ms", "-o", "out.bvh"], 2),
+    ],
+)
+def test_a_standard_stream_that_is_closed_is_as_if_empty(
+    closed: str, arguments: list[str], code: int, tmp_path
+) -> None:
+    command = ["sh", "-c", f'exec "$@" {closed}', "sh", sys.executable, "-m", f"mlmg_lang.commands.{arguments[0]}"]
+    ended = subprocess.run(
+        [*command, *arguments[1:]], capture_output=True, stdin=subprocess.DEVNULL, cwd=tmp_path, check=False
+    )
+    assert ended.returncode == code
+    assert b"Traceback" not in ended.stderr

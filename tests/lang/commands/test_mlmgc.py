@@ -106,7 +106,6 @@ def test_an_empty_script_says_what_a_script_is(scene, capsys):
         (["scene.ms", "--library", "Stand.bvh", "-o", "o.bvh"], 1, "Stand.bvh: "),
         (["scene.ms", "--library", "my.mlmg", "-o", "-", "--report", "-"], 2, "standard output"),
         (["scene.ms", "--library", "my.mlmg", "-o", "o.fbx"], 2, "o.fbx: a motion is written as BVH; expected a name"),
-        (["scene.ms", "--library", "my.mlmg", "-o", "o.fbx", "--watch"], 2, "that ends in .bvh, found .fbx"),
     ],
 )
 def test_what_cannot_be_opened_or_is_wrong_is_one_line(scene, capsys, arguments, code, message):

@@ -233,7 +233,7 @@ def test_what_cannot_be_watched_is_wrong_usage(tmp_path, monkeypatch, capsys, ar
 
 def test_a_used_file_is_not_written_over(watching, capsys):
     before = Path("more.ms").read_bytes()
-    assert mlmgc.main(["scene.ms", "-o", "more.ms"]) == 2
+    assert mlmgc.main(["scene.ms", "-o", "out.bvh", "--report", "more.ms"]) == 2
     assert "more.ms: this file is read" in capsys.readouterr().err
     assert Path("more.ms").read_bytes() == before
 

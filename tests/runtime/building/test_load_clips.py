@@ -74,6 +74,19 @@ def test_without_a_rate_all_clips_get_that_of_the_first(clips: Path, small_clips
     same_poses(loaded.poses["Stroll"], poses_from_bvh(small_clips["Stroll"])[::4])
 
 
+@pytest.mark.parametrize(
+    ("frame_time_s", "bound"), [(33.3, "at most 1: is it in milliseconds?"), (1e-300, "at least 0.0001")]
+)
+def test_frame_times_that_nobody_means_are_told_with_the_clip(clips: Path, small_clips, frame_time_s, bound) -> None:
+    write(small_clips["Stand"], clips / "Stand.bvh")
+    text = (clips / "Stand.bvh").read_text().splitlines(keepends=True)
+    at = next(index for index, line in enumerate(text) if line.startswith("Frame Time"))
+    (clips / "Stand.bvh").write_text("".join([*text[:at], f"Frame Time: {frame_time_s}\n", *text[at + 1 :]]))
+    with pytest.raises(LibraryError) as caught:
+        load(clips)
+    assert str(caught.value) == f"{clips}/Stand.bvh: a frame lasts {frame_time_s:g} s; expected {bound}"
+
+
 def test_cutting_comes_before_resampling(clips: Path, small_clips) -> None:
     loaded = load(clips, "[library]\nframe_rate = 15\n[clips.Stand]\nframes = [20, 41]")
     same_poses(loaded.poses["Stand"], poses_from_bvh(small_clips["Stand"])[20:41:2])

@@ -61,3 +61,9 @@ def test_a_key_that_is_not_known_is_told_with_those_that_are(tmp_path: Path, key
 )
 def test_the_likeliest_name_is_offered_whatever_its_case(name: str, known: list[str], meant: str | None) -> None:
     assert did_you_mean(name, known) == (f"; did you mean `{meant}`?" if meant else "")
+
+
+def test_more_brackets_inside_each_other_than_can_be_read_are_an_error(tmp_path: Path) -> None:
+    (tmp_path / "a.toml").write_text(f"x = {'[' * 5000}{']' * 5000}\n")
+    with pytest.raises(ConfigurationError, match="too many brackets stand inside each other"):
+        read_toml(tmp_path / "a.toml")
