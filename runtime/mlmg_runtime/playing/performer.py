@@ -8,13 +8,15 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
+import numpy as np
+
 from mlmg_runtime.errors import PlayError
 from mlmg_runtime.library import Library
-from mlmg_runtime.motion_graph import MotionGraph, Position
+from mlmg_runtime.motion_graph import UNREACHABLE, MotionGraph, Position, Transition
 from mlmg_runtime.playing.holding import stay
 from mlmg_runtime.playing.releasing import release
 from mlmg_runtime.playing.returning import find_return
-from mlmg_runtime.playing.search import Path, find_path
+from mlmg_runtime.playing.search import Path, find_path, find_paths
 from mlmg_runtime.playing.timeline import (
     Blend,
     Clip,
@@ -164,35 +166,45 @@ class Performer:
         The graph `afresh` enters its motion where that begins.
         """
         self._end(self._below(changing))
-        self._end_detours(changing)
-        found = {
-            graph: self._entry(graph, changing) if graph == afresh else self._departure(graph, changing)
-            for graph in changing
-        }
-        departures = {graph: departure for graph, departure in found.items() if departure is not None}
-        if len(departures) < len(changing):
-            self._end([graph for graph in changing if graph not in departures])
+        aims = {graph: changing[graph] if graph == afresh else self._aim(graph, changing[graph]) for graph in changing}
+        returning = [graph for graph in changing if graph != afresh and self._above(graph) in aims[graph]]
+        if returning:
+            self._end(returning)
             # Time has passed: the others are asked anew.
-            self._change({graph: changing[graph] for graph in departures}, afresh)
+            self._change({graph: changing[graph] for graph in changing if graph not in returning}, afresh)
             return
-        for graph, departure in departures.items():
-            self._set_out(graph, departure)
-        self._hold_until(max((departure.arrives for departure in departures.values()), default=self.now))
-
-    def _departure(self, graph: str, changing: Mapping[str, Sequence[str]]) -> _Departure | None:
-        """Return how a graph gets into the best of its candidates; None if that is what the graph above plays."""
-        own = self.library.by_name[graph]
-        above = None if own.parent is None else self.motion(own.parent)
-        for choice in _choices(own, above, changing[graph]):
-            if above in choice:
-                return None
-            departure = self._soonest(own, [own.index[motion] for motion in choice], changing)
-            if departure is not None:
-                return departure
-        names = ", ".join(changing[graph])
-        raise PlayError(
-            f"no walk on {graph} leads from {self.motion(graph)} to {names}; see `mlmg info` for what was lost"
+        self._end_detours(changing)
+        departures = self._departures(aims, afresh)
+        if None in departures.values():
+            self._lead_round({graph: aims[graph] for graph in aims if graph != afresh})
+            departures = self._departures(aims, afresh)
+        self._set_out(
+            {graph: found or self._on_the_spot(graph, aims[graph], aims) for graph, found in departures.items()}
         )
+
+    def _aim(self, graph: str, candidates: Sequence[str]) -> Sequence[str]:
+        """Return the candidates that a graph makes for, whichever it reaches soonest.
+
+        On the root graph these are all; below it the one that fits best of those that anything leads to.
+        """
+        own, above, track = self.library.by_name[graph], self._above(graph), self._driver(graph)
+        playing = {track.graph.motions[motion] for motion in (track.home, track.position.motion)} & own.index.keys()
+        sources = [own.index[motion] for motion in sorted(playing)]
+        for choice in _choices(own, above, candidates):
+            targets = [own.index[motion] for motion in choice]
+            if above in choice or (own.hops[np.ix_(sources, targets)] != UNREACHABLE).any():
+                return choice
+        raise PlayError(
+            f"no walk on {graph} leads from {self.motion(graph)} to {', '.join(candidates)}; "
+            f"see `mlmg info` for what was lost"
+        )
+
+    def _departures(self, aims: Mapping[str, Sequence[str]], afresh: str | None) -> Mapping[str, _Departure | None]:
+        """Return how graphs of one level get into what they make for, each as soon as it can; None where none can."""
+        return {
+            graph: self._entry(graph, aims) if graph == afresh else self._soonest(graph, aims[graph], aims)
+            for graph in aims
+        }
 
     def _begins(self, graph: str) -> bool:
         """Return whether a graph has just begun its motion: it could be entered no earlier."""
@@ -201,53 +213,102 @@ class Performer:
             return False
         return track.position.frame <= track.graph.window
 
-    def _entry(self, graph: str, changing: Mapping[str, Sequence[str]]) -> _Departure:
+    def _entry(self, graph: str, aims: Mapping[str, Sequence[str]]) -> _Departure:
         """Return how a graph gets to where a candidate begins: along a path, or else by a blend on the spot."""
         own = self.library.by_name[graph]
-        above = None if own.parent is None else self.motion(own.parent)
-        choices = [[own.index[motion] for motion in choice] for choice in _choices(own, above, changing[graph])]
+        choices = _choices(own, self._above(graph), aims[graph])
         for choice in choices:
-            departure = self._soonest(own, choice, changing, own.window - 1)
+            departure = self._soonest(graph, choice, aims, own.window - 1)
             if departure is not None:
                 return departure
-        soonest = self._soonest(own, choices[0], changing)
-        home = choices[0][0] if soonest is None else soonest.home
-        time, position = next(self._starts(own, changing))
+        return self._on_the_spot(graph, choices[0], aims)
+
+    def _on_the_spot(self, graph: str, targets: Sequence[str], joining: Collection[str]) -> _Departure:
+        """Return how a graph is blended at once to where one of `targets` begins: the one reached soonest, or first."""
+        own = self.library.by_name[graph]
+        soonest = self._soonest(graph, targets, joining)
+        home = own.index[targets[0]] if soonest is None else soonest.home
+        time, position = next(self._starts(own, joining))
         blend = Blend(time, time + own.window, position, Position(home, own.window - 1))
         return _Departure(position, time, (blend,), home)
 
     def _soonest(
-        self, own: MotionGraph, targets: Sequence[int], joining: Collection[str], dst_frame: int | None = None
+        self,
+        graph: str,
+        targets: Sequence[str],
+        joining: Collection[str],
+        dst_frame: int | None = None,
+        above: _Track | None = None,
     ) -> _Departure | None:
         """Return the departure that arrives soonest in one of `targets`; None if no walk leads there.
 
-        With `dst_frame`, that has to be the last blended frame of the transition into the target.
+        Parameters
+        ----------
+        joining : the parts that set out at the same time.
+        dst_frame : the last blended frame of the transition into the target; None for any.
+        above : where the graph above is, if not where it is now.
         """
+        own = self.library.by_name[graph]
+        homes = [own.index[motion] for motion in targets]
         best: _Departure | None = None
         seen: set[Position] = set()
-        for time, position in self._starts(own, joining):
+        for time, position in self._starts(own, joining, above):
             if position in seen or (best is not None and time + own.window > best.arrives):
                 break
             seen.add(position)
-            path = find_path(own, position, targets, dst_frame=dst_frame)
+            path = find_path(own, position, homes, dst_frame=dst_frame)
             if path is not None and (best is None or time + path.n_frames < best.arrives):
                 segments = play_along(path.transitions, own.window, position, time)
                 best = _Departure(position, time, tuple(segments), path.arrival.motion)
         return best
 
-    def _starts(self, own: MotionGraph, joining: Collection[str]) -> Iterator[tuple[int, Position]]:
+    def _starts(
+        self, own: MotionGraph, joining: Collection[str], above: _Track | None = None
+    ) -> Iterator[tuple[int, Position]]:
         """Yield when and where a graph may set out: where it is, or, without end, where the graph above will be."""
         if own.name in self._running:
             yield self._running[own.name].time, self._running[own.name].position
         else:
-            yield from ((clip.begin, clip.first) for clip in self._clips_above(own, joining))
+            track = self._driver(own.name) if above is None else above
+            yield from ((clip.begin, clip.first) for clip in self._clips_above(own, track, joining))
 
-    def _set_out(self, graph: str, departure: _Departure) -> None:
-        own = self.library.by_name[graph]
-        if graph not in self._running:
-            self._running[graph] = _Track(own, departure.position.motion, departure.position, departure.time)
-        self._running[graph].play(departure.segments)
-        self._running[graph].home = departure.home
+    def _set_out(self, departures: Mapping[str, _Departure]) -> None:
+        """Let graphs set out, and time pass until all have arrived."""
+        for graph, departure in departures.items():
+            if graph not in self._running:
+                own = self.library.by_name[graph]
+                self._running[graph] = _Track(own, departure.position.motion, departure.position, departure.time)
+            self._running[graph].play(departure.segments)
+            self._running[graph].home = departure.home
+        self._hold_until(max((departure.arrives for departure in departures.values()), default=self.now))
+
+    # Leading graphs to where the parts below them can leave
+
+    def _lead_round(self, aims: Mapping[str, Sequence[str]]) -> None:
+        """Let graphs come back to their motions another way, where parts could nowhere leave what they would play."""
+        leaving = {graph: self._driver(graph) for graph in aims if graph not in self._running}
+        for track in {track.graph.name: track for track in leaving.values()}.values():
+            parts = [graph for graph in leaving if leaving[graph] is track]
+            if any(self._soonest(graph, aims[graph], aims) is None for graph in parts):
+                way = self._way_round({graph: aims[graph] for graph in parts}, track, aims)
+                track.play(play_along(way, track.graph.window, track.position, track.time))
+
+    def _way_round(
+        self, parts: Mapping[str, Sequence[str]], track: _Track, joining: Collection[str]
+    ) -> tuple[Transition, ...]:
+        """Return the way back to a track's motion after which all of some parts that leave it have arrived soonest."""
+        best: tuple[Transition, ...] = ()
+        arrive: int | None = None
+        allowed = self._allowed(track.graph.name, joining)
+        for path in find_paths(track.graph, track.position, [track.home], allowed):
+            there = replace(track, position=path.arrival, time=track.time + path.n_frames)
+            if arrive is not None and there.time >= arrive:
+                break
+            found = [self._soonest(graph, targets, joining, above=there) for graph, targets in parts.items()]
+            arrivals = [departure.arrives for departure in found if departure is not None]
+            if len(arrivals) == len(found) and (arrive is None or max(arrivals) < arrive):
+                best, arrive = path.transitions, max(arrivals)
+        return best
 
     def _end_detours(self, joining: Collection[str]) -> None:
         """Let the graphs that parts are about to leave come back from a way round that the parts could not mind."""
@@ -290,7 +351,8 @@ class Performer:
 
     def _way_back(self, track: _Track) -> tuple[Segment, ...]:
         deadline = self.now + round(LONGEST_RETURN_S * self.library.frame_rate)
-        above = list(self._clips_above(track.graph, deadline=deadline))
+        driver = self._driver(self.library.ancestors(track.graph.name)[0])
+        above = list(self._clips_above(track.graph, driver, deadline=deadline))
         way = find_return(track.graph, track.position, track.time, above, deadline)
         return release(self.library, track.graph, self._stay(track), above, deadline) if way is None else way
 
@@ -311,16 +373,13 @@ class Performer:
         return stay(self.library, track.graph, track.home, track.position, track.time, allowed)
 
     def _clips_above(
-        self, graph: MotionGraph, joining: Collection[str] = (), deadline: int | None = None
+        self, graph: MotionGraph, track: _Track, joining: Collection[str] = (), deadline: int | None = None
     ) -> Iterator[Clip]:
-        """Yield the clips that the graph above will play, as far as they are motions of `graph` and in its indices.
+        """Yield the clips that a track above will play, as far as they are motions of `graph` and in its indices.
 
         A blend is a clip of no frames at its beginning: it can be left there, and need not follow a clip that has some.
         Ends with the first segment that begins after `deadline`; without one, never.
         """
-        parent = self.library.parent(graph.name)
-        assert parent is not None
-        track = self._driver(parent)
         for segment in self._stay(track, joining):
             if deadline is not None and segment.begin > deadline:
                 return
@@ -337,6 +396,11 @@ class Performer:
         return frozenset(i for i, motion in enumerate(motions) if all(motion in part.index for part in parts))
 
     # Who is where in the tree
+
+    def _above(self, graph: str) -> str | None:
+        """Return the motion that the graph above a part plays; None for the root."""
+        parent = self.library.parent(graph)
+        return None if parent is None else self.motion(parent)
 
     def _driver(self, graph: str) -> _Track:
         return next(self._running[g] for g in (graph, *self.library.ancestors(graph)) if g in self._running)

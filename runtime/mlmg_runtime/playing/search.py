@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from bisect import bisect_left
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
 from heapq import heappop, heappush
 
@@ -33,16 +33,30 @@ def find_path(
 ) -> Path | None:
     """Return the path of at least one transition into a target motion that takes the fewest frames.
 
-    Of equally short paths the one with the smallest sum of costs, then the one to the earlier target. It is Dijkstra's
-    search, with the motion table as lower bound (A*), over the frames at which a transition leaves; playing on to the
-    next such frame of the same motion is the other step.
+    Of equally short paths the one with the smallest sum of costs, then the one to the earlier target. For the
+    parameters see `find_paths`.
+    """
+    return next(find_paths(graph, start, targets, allowed, dst_frame), None)
+
+
+def find_paths(
+    graph: MotionGraph,
+    start: Position,
+    targets: Sequence[int],
+    allowed: Collection[int] | None = None,
+    dst_frame: int | None = None,
+) -> Iterator[Path]:
+    """Yield, for each transition into a target motion, the path that ends with it and takes the fewest frames.
+
+    The shortest comes first; of equally short paths the one with the smallest sum of costs, then the one to the earlier
+    target. It is Dijkstra's search, with the motion table as lower bound (A*), over the frames at which a transition
+    leaves; playing on to the next such frame of the same motion is the other step.
 
     Parameters
     ----------
     targets : indices of motions, in the order that decides ties.
     allowed : indices of motions that the path may enter besides the targets; None for all.
-    dst_frame : the frame at which the last transition has to end; None for any. Other transitions into a target are
-        then on the way like all others.
+    dst_frame : the frame at which the last transition has to end; None for any.
     """
     bound = _lower_bounds(graph, targets)
     rank = {motion: at for at, motion in enumerate(targets)}
@@ -70,7 +84,8 @@ def find_path(
         _, cost, target, number, n_frames, taken = heappop(queue)
         if target >= 0:
             assert taken is not None
-            return Path(taken.transitions(edges), n_frames, cost)
+            yield Path(taken.transitions(edges), n_frames, cost)
+            continue
         edge = edges[number]
         if best[number] != (n_frames, cost):
             continue
@@ -80,12 +95,11 @@ def find_path(
         then, there = _Taken(number, taken), n_frames + k
         if edge.dst_motion in rank and dst_frame in (None, edge.dst_frame):
             heappush(queue, (there, cost + edge.cost, rank[edge.dst_motion], number, there, then))
-        elif allowed is None or edge.dst_motion in allowed:
+        if allowed is None or edge.dst_motion in allowed or edge.dst_motion in rank:
             onward = next_exit(edge.arrival)
             if onward is not None:
                 wait = edges[onward].src_frame - edge.arrival.frame
                 push(onward, there + wait, cost + edge.cost, then)
-    return None
 
 
 @dataclass(frozen=True, slots=True)

@@ -186,17 +186,19 @@ class Model:
         """Return the motion that the graph above a part plays."""
         return self.home[self.driver(self.library.parent(graph))]
 
-    def future(self, graph: str, setting_out: Collection[str] = ()) -> Iterator[tuple[int, Position]]:
+    def future(
+        self, graph: str, setting_out: Collection[str] = (), since: tuple[int, Position] | None = None
+    ) -> Iterator[tuple[int, Position]]:
         """Yield, frame by frame, when and where on `graph` the graph above it will be if it stays in its motion.
 
         It minds the parts that run below it, and those that are setting out. A way round that these cannot mind is
-        ended first.
+        ended first. `since` is where and from when on the graph above is, if it goes round another way before.
         """
         above = self.driver(self.library.parent(graph))
         own, driving = self.library.by_name[graph], self.library.by_name[above]
         home = driving.index[self.home[above]]
         running, joining = self.below(above), {g for g in setting_out if above in self.library.ancestors(g)}
-        when, at = self.where(above, self.now)
+        when, at = self.where(above, self.now) if since is None else since
         allowed = self.allowed(above, running | joining)
         if at.motion != home and self.soonest(driving, at, [home], allowed) is None:
             back = self.soonest(driving, at, [home], self.allowed(above, running))
@@ -261,10 +263,51 @@ class Model:
         returning = {g for g in level if self.library.parent(g) and targets[g] == [self.above(g)]}
         self.end(returning)
         setting_out = level.keys() - returning
-        walks = {graph: self.walk(graph, targets[graph], setting_out) for graph in setting_out}
-        for graph, (arrives, motion) in walks.items():
+        since = self.rounds({graph: targets[graph] for graph in setting_out})
+        walks = {graph: self.walk(graph, targets[graph], setting_out, since.get(graph)) for graph in setting_out}
+        for graph, walk in walks.items():
+            own = self.library.by_name[graph]
+            first = next(self.future(graph, setting_out, since.get(graph)))[0] if walk is None else 0
+            # Where there is no walk, it is blended into the beginning.
+            arrives, self.home[graph] = walk or (first + own.window, targets[graph][0])
             self.now = max(self.now, arrives)
-            self.home[graph] = motion
+
+    def rounds(self, targets: dict[str, list[str]]) -> dict[str, tuple[int, Position]]:
+        """Return, by part, where and from when on a graph above is that first goes round another way.
+
+        It does where one of the parts that leave it finds no walk. Of all frames of its motion that it could come to
+        by a transition, the one is taken from which all of them have arrived soonest.
+        """
+        since: dict[str, tuple[int, Position]] = {}
+        for above in {self.driver(graph) for graph in targets.keys() - self.home.keys()}:
+            parts = [graph for graph in targets.keys() - self.home.keys() if self.driver(graph) == above]
+            if all(self.walk(graph, targets[graph], set(targets)) for graph in parts):
+                continue
+            found = []
+            for then in self.returns(above, set(targets)):
+                walks = [self.walk(graph, targets[graph], set(targets), then) for graph in parts]
+                if all(walks):
+                    found.append((max(arrives for arrives, _ in walks), then))
+            since |= dict.fromkeys(parts, min(found)[1]) if found else {}
+        return since
+
+    def returns(self, above: str, setting_out: set[str]) -> list[tuple[int, Position]]:
+        """Return to which frames of its motion a graph can come by a transition, and when at the earliest."""
+        own = self.library.by_name[above]
+        home = own.index[self.home[above]]
+        joining = {g for g in setting_out if above in self.library.ancestors(g)}
+        allowed = {home, *self.allowed(above, self.below(above) | joining)}
+        earliest: dict[Position, int] = {}
+        waiting = [self.where(above, self.now)]
+        while waiting:
+            when, at = waiting.pop()
+            for edge in own.edges:
+                leaves = edge.src_motion == at.motion and edge.src_frame >= at.frame
+                then = when + edge.src_frame - at.frame + own.window
+                if leaves and edge.dst_motion in allowed and then < earliest.get(edge.arrival, then + 1):
+                    earliest[edge.arrival] = then
+                    waiting.append((then, edge.arrival))
+        return [(when, at) for at, when in earliest.items() if at.motion == home]
 
     def targets(self, graph: str, candidates: list[str]) -> list[str]:
         """Return the candidates of the root, or that of a part that fits the rest of the body best."""
@@ -274,17 +317,19 @@ class Model:
         fits = [own.oms[own.index[self.above(graph)], own.index[motion]] for motion in candidates]
         return [candidates[fits.index(min(fits))]]
 
-    def walk(self, graph: str, targets: list[str], setting_out: set[str]) -> tuple[int, str]:
-        """Return when a graph arrives in which motion."""
+    def walk(
+        self, graph: str, targets: list[str], setting_out: set[str], since: tuple[int, Position] | None = None
+    ) -> tuple[int, str] | None:
+        """Return when a graph arrives in which motion; None if it cannot."""
         own = self.library.by_name[graph]
         if graph in self.home:
             starts = dict([self.where(graph, self.now)])
         else:
-            starts = dict(islice(self.future(graph, setting_out), 400))
+            starts = dict(islice(self.future(graph, setting_out, since), 400))
         first = min(starts)
         later = {time - first: at for time, at in starts.items()}
         walk = self.soonest(own, starts[first], [own.index[motion] for motion in targets], later=later)
-        return first + walk.n_frames, targets[walk.target]
+        return None if walk is None else (first + walk.n_frames, targets[walk.target])
 
 
 @settings(max_examples=120)
@@ -485,6 +530,60 @@ def test_a_part_sets_out_later_where_it_then_arrives_sooner(rewired, leaves: int
     performer.bring([("Upper-Body", ["Wave"])])
     assert performer.timeline().tracks["Upper-Body"][0].begin == sets_out
     assert performer.now == arrives
+
+
+# Past frame 60 of Stand the upper body cannot leave it, and the body loops from 100 to 90.
+LATE_LOOP = [("Stand", 100, "Stand", 90)]
+
+
+@pytest.mark.parametrize(
+    ("others", "arrives"),
+    [
+        # From frame 91, where it is at 108, it is 4 frames to 95; the part leaves from 60 after another 39.
+        ([("Stand", 95, "Stand", 20)], 108 + 4 + 8 + 39 + 8),
+        ([("Stand", 95, "Stand", 20), ("Stand", 97, "Stroll", 20), ("Stroll", 21, "Stand", 59)], 108 + 6 + 8 + 8 + 8),
+        # Sway is not on the upper body.
+        ([("Stand", 95, "Stand", 20), ("Stand", 97, "Sway", 20), ("Sway", 21, "Stand", 59)], 108 + 4 + 8 + 39 + 8),
+        # The body would be back sooner, the part arrive later.
+        ([("Stand", 95, "Stand", 20), ("Stand", 91, "Stand", 9)], 108 + 4 + 8 + 39 + 8),
+        # Only after another loop can the body go that way.
+        ([("Stand", 91, "Stand", 89), ("Stand", 90, "Stand", 20)], 108 + 8 + 8 + 39 + 8),
+        # Where no way leads there, the part is blended into the beginning.
+        ([], 108 + 8),
+        ([("Stand", 90, "Stand", 20)], 108 + 8),
+    ],
+)
+def test_where_a_part_could_nowhere_leave_the_body_goes_round_another_way(
+    rewired, soonest, others: list[tuple[str, int, str, int]], arrives: int
+) -> None:
+    library = rewired({"Full-Body": LATE_LOOP + others, "Upper-Body": [("Stand", 60, "Wave", 20)]})
+    performer = Performer(library, "Stand")
+    performer.hold(104)
+    model = Model(performer, soonest)
+    performer.bring([("Upper-Body", ["Wave"])])
+    model.bring([("Upper-Body", ["Wave"])])
+    model.check()
+    assert performer.now == arrives
+    check_timeline_of_passes(library, performer)
+
+
+def test_the_way_that_a_body_goes_round_is_one_that_all_who_set_out_can_leave(rewired) -> None:
+    library = rewired(
+        {
+            "Full-Body": [*LATE_LOOP, ("Stand", 95, "Stand", 49), ("Stand", 97, "Stand", 20)],
+            "Left-Arm": [("Stand", 60, "Wave", 20)],
+            "Right-Arm": [("Stand", 40, "Reach", 20), ("Reach", 30, "Stand", 20)],
+        }
+    )
+    alone, both = Performer(library, "Stand"), Performer(library, "Stand")
+    for performer in (alone, both):
+        performer.hold(104)
+    alone.bring([("Left-Arm", ["Wave"])])
+    assert alone.now == 108 + 4 + 8 + 10 + 8 - 2
+    both.bring([("Left-Arm", ["Wave"]), ("Right-Arm", ["Reach"])])
+    assert both.now == 108 + 6 + 8 + 39 + 6
+    tracks = both.timeline().tracks
+    assert tracks["Right-Arm"][0].begin == tracks["Left-Arm"][0].begin == 108 + 6 + 8
 
 
 def test_a_command_ends_the_parts_below_it_that_it_does_not_name(small_library: Library) -> None:

@@ -5,8 +5,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mlmg_runtime.library import Library
-from mlmg_runtime.motion_graph import Position
-from mlmg_runtime.playing.search import find_path
+from mlmg_runtime.motion_graph import MotionGraph, Position
+from mlmg_runtime.playing.search import find_path, find_paths
 
 SMALL_GRAPHS = ["Full-Body", "Upper-Body", "Left-Arm", "Right-Arm"]
 
@@ -104,3 +104,32 @@ def test_a_path_enters_no_motion_that_is_not_allowed_but_its_targets(motion_grap
     graph = motion_graph([30, 30, 30], 3, [(0, 4, 1, 8), (1, 10, 2, 8), (0, 20, 2, 9)])
     assert find_path(graph, Position(0, 0), [2], allowed={0}).n_frames == 23
     assert find_path(graph, Position(0, 0), [2], allowed={1}).n_frames == 11
+
+
+@settings(max_examples=200)
+@given(data=st.data())
+def test_all_paths_are_the_soonest_to_each_transition_into_a_target_in_order(data, motion_graphs, soonest) -> None:
+    graph = data.draw(motion_graphs(longest=14))
+    motions = st.integers(0, len(graph.motions) - 1)
+    start, home = Position(data.draw(motions), 0), data.draw(motions)
+    paths = list(find_paths(graph, start, [home]))
+    assert [path.n_frames for path in paths] == sorted(path.n_frames for path in paths)
+    frames = frames_to(graph, start)
+    expected = [(edge, frames.get(Position(*edge[:2]))) for edge in graph.edges if edge.dst_motion == home]
+    found = {path.transitions[-1]: path.n_frames for path in paths}
+    assert found == {edge: n_frames + graph.window for edge, n_frames in expected if n_frames is not None}
+
+
+def frames_to(graph: MotionGraph, start: Position) -> dict[Position, int]:
+    """Return the fewest frames to each position, by letting every one reach others until none is reached sooner."""
+    reached, ahead = {start: 0}, [start]
+    while ahead:
+        at = ahead.pop()
+        onward = [(edge.arrival, graph.window) for edge in graph.edges if edge[:2] == at]
+        if at.frame + 1 < graph.n_frames[at.motion]:
+            onward.append((Position(at.motion, at.frame + 1), 1))
+        for place, n_frames in onward:
+            if place not in reached or reached[at] + n_frames < reached[place]:
+                reached[place] = reached[at] + n_frames
+                ahead.append(place)
+    return reached
