@@ -125,7 +125,7 @@ def read_story(path: str | Path, n_frames: int) -> Story:
         content = json.loads(Path(path).read_text(encoding="utf-8"))
     except (UnicodeDecodeError, json.JSONDecodeError) as error:
         line = getattr(error, "lineno", None)
-        raise ReportError(path, line, f"expected the report of a run as JSON, found {error}") from error
+        raise ReportError(path, line, "expected the report of a run as JSON, found text that is none") from error
     if not is_report(content):
         raise ReportError(path, None, 'expected the report of a run, with "n_frames", "commands" and "tracks"')
     if content["n_frames"] != n_frames:
