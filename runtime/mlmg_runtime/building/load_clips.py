@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from mlmg_runtime import bvh
 from mlmg_runtime.building.configuration import ClipSource, LibraryConfiguration
 from mlmg_runtime.building.mirror import mirrored
-from mlmg_runtime.bvh.document import Bvh
+from mlmg_runtime.bvh.document import Bvh, Joint
 from mlmg_runtime.clips import poses_from_bvh, resample, same_rate, skeleton_from_bvh
 from mlmg_runtime.errors import ConfigurationError, LibraryError
 from mlmg_runtime.skeleton import Poses, Skeleton, has_positions
@@ -52,6 +52,8 @@ def load_clips(configuration: LibraryConfiguration, progress: Callable[[int, int
         progress(done, len(configuration.clips))
         document = bvh.read(clip.path)
         warnings += [f"{clip.path}: {warning}" for warning in document.warnings]
+        if skeleton is not None:
+            document = _ordered(document, skeleton)
         own = skeleton_from_bvh(document)
         if skeleton is None:
             skeleton = own
@@ -63,6 +65,26 @@ def load_clips(configuration: LibraryConfiguration, progress: Callable[[int, int
     assert skeleton is not None  # a configuration has at least one clip
     assert frame_rate is not None
     return Clips(skeleton, frame_rate, poses, tuple(warnings))
+
+
+def _ordered(document: Bvh, skeleton: Skeleton) -> Bvh:
+    """Return the document with its joints in the skeleton's order, if both are one tree; else as it is.
+
+    Programs differ in which child of a joint they write first.
+    """
+    own = {joint.name: joint for joint in document.joints}
+    if _names_above(document.joints) != _names_above(skeleton.joints) or tuple(own) == skeleton.names:
+        return document
+    ends = np.cumsum([len(joint.channels) for joint in document.joints])
+    columns = {joint.name: range(end - len(joint.channels), end) for joint, end in zip(own.values(), ends, strict=True)}
+    joints = [replace(own[joint.name], parent=joint.parent) for joint in skeleton.joints]
+    order = [column for joint in joints for column in columns[joint.name]]
+    return replace(document, joints=tuple(joints), frames=document.frames[:, order])
+
+
+def _names_above(joints: Sequence[Joint]) -> dict[str, str | None]:
+    """Return the name of each joint's parent."""
+    return {joint.name: joints[joint.parent].name if joint.parent >= 0 else None for joint in joints}
 
 
 def _rate(document: Bvh, clip: ClipSource) -> float:

@@ -105,6 +105,31 @@ def test_z_up_clips_stand_upright_inside_the_library(clips: Path, small_clips) -
     np.testing.assert_allclose(np.stack((x, y, z), axis=1), raw[:, [0, 2, 1]] * (1.0, 1.0, -1.0), atol=1e-5)
 
 
+def last_child_first(bvh: Bvh) -> Bvh:
+    """Return the same motion as a program might write it that goes through the children the other way round."""
+    order: list[int] = []
+
+    def visit(joint: int) -> None:
+        order.append(joint)
+        for child in reversed([at for at, other in enumerate(bvh.joints) if other.parent == joint]):
+            visit(child)
+
+    visit(0)
+    ends = np.cumsum([len(joint.channels) for joint in bvh.joints])
+    joints = [replace(bvh.joints[at], parent=order.index(max(bvh.joints[at].parent, 0)) if at else -1) for at in order]
+    columns = [column for at in order for column in range(ends[at] - len(bvh.joints[at].channels), ends[at])]
+    return Bvh(tuple(joints), bvh.frame_time_s, bvh.frames[:, columns])
+
+
+def test_which_child_of_a_joint_a_file_names_first_makes_no_difference(clips: Path, small_clips) -> None:
+    other = last_child_first(small_clips["Stroll"])
+    assert [joint.name for joint in other.joints] != [joint.name for joint in small_clips["Stroll"].joints]
+    write(other, clips / "Stroll.bvh")
+    loaded = load(clips)
+    assert loaded.skeleton.names == tuple(joint.name for joint in small_clips["Stand"].joints)
+    same_poses(loaded.poses["Stroll"], poses_from_bvh(small_clips["Stroll"]))
+
+
 def swap(joints: tuple[Joint, ...], a: int, b: int) -> tuple[Joint, ...]:
     changed = list(joints)
     changed[a], changed[b] = replace(joints[a], name=joints[b].name), replace(joints[b], name=joints[a].name)
@@ -121,7 +146,7 @@ DISAGREEMENTS = [
         "has a joint `Tail`, which that has not",
     ),
     (lambda joints: joints[:-1], "has no joint `RightLeg`, which that has"),
-    (lambda joints: swap(joints, 6, 7), "has the joint `RightLeg` where that has `LeftLeg`"),
+    (lambda joints: swap(joints, 3, 7), "has the joint `RightLeg` where that has `LeftHand`"),
     (
         lambda joints: with_joint(joints, 6, parent=1),
         "hangs the joint `LeftLeg` on `Spine`, that on `Hips`",
