@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 from mlmg_lang.catalog import Catalog
 from mlmg_lang.definitions.gather import Definitions, Files
@@ -21,6 +21,11 @@ if TYPE_CHECKING:
     from mlmg_lang.planning.resolve import Resolution
     from mlmg_lang.planning.resolved import ResolvedPlan
     from mlmg_lang.planning.typed import TypedPlan
+
+
+_UNUSED: Final = "MS054"
+_UNKNOWN: Final = frozenset({"MS021", "MS025", "MS026", "MS027", "MS028"})
+"""Names that mean nothing where they stand: what seems not to be used may be what they were to be."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,7 +59,10 @@ class Found:
     @property
     def told(self) -> tuple[Diagnostic, ...]:
         """Return what is to be told as long as no comment asks for silence."""
-        return (*self.read, *self.played, *(() if self.wrong else self.hints))
+        read = self.read
+        if any(one.code in _UNKNOWN for one in read):
+            read = tuple(one for one in read if one.code != _UNUSED)
+        return (*read, *self.played, *(() if self.wrong else self.hints))
 
 
 @dataclass(frozen=True, slots=True)

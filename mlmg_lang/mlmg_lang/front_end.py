@@ -108,7 +108,8 @@ def _structure(
     yield from misplaced(script)
     for let in definitions.lets.values():
         yield from check_definition(let, frame_rate)
-    yield from check_structure(expanded, frame_rate, definitions.complete)
+    own = tuple(let.name.text for let in definitions.lets.values())
+    yield from check_structure(expanded, frame_rate, definitions.complete, own)
 
 
 def _hints(resolution: Resolution, around: Resolution, names: Names, catalog: Catalog) -> tuple[Diagnostic, ...]:

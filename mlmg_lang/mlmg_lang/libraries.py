@@ -3,41 +3,60 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Callable
 from pathlib import Path
+from typing import TypeAlias
 
 SETTINGS = "mlmg.toml"
 VARIABLE = "MLMG_LIBRARY"
+DEMO = "demo"
+"""What the demo library is called where a library is named, unless there is a file of that name."""
+
+Progress: TypeAlias = Callable[[str, int, int], None]
 
 
-def find_library(script: str | Path, option: str | Path | None = None) -> Path | None:
+def find_library(
+    script: str | Path, option: str | Path | None = None, progress: Progress = lambda *_: None
+) -> Path | None:
     """Return the path of the library for a script, or None if nothing names one.
 
     It is the first there is of: the option; the environment variable `MLMG_LIBRARY`; the key `library` of the
-    nearest `mlmg.toml`, in the script's folder or one above it, as a path from that file.
+    nearest `mlmg.toml`, in the script's folder or one above it, as a path from that file. Each may say `demo`, for the
+    demo library, which is built when it is first needed; a file or folder `demo` at that place is meant before it.
 
     Parameters
     ----------
     script : the path of the script; `-` is taken to stand in the current folder.
+    progress : called while the demo library is built.
 
     Raises
     ------
     mlmg_runtime.errors.ConfigurationError
         If that `mlmg.toml` is not TOML, holds another key, or its `library` is not text.
     OSError
-        If it cannot be read.
+        If it cannot be read, or the demo library cannot be written.
     """
     named = option or os.environ.get(VARIABLE)
     if named:
-        return Path(named)
+        return _named(named, Path(), progress)
     folder = Path.cwd() if str(script) == "-" else Path(script).absolute().parent
     for place in (folder, *folder.parents):
         settings = place / SETTINGS
         if settings.is_file():
-            return _library_of(settings)
+            return _library_of(settings, progress)
     return None
 
 
-def _library_of(settings: Path) -> Path | None:
+def _named(name: str | Path, folder: Path, progress: Progress) -> Path:
+    """Return the path of a library that is named in a folder."""
+    if str(name) != DEMO or (folder / name).exists():
+        return folder / name
+    from mlmg_runtime.demo.library import demo_library
+
+    return demo_library(progress)
+
+
+def _library_of(settings: Path, progress: Progress) -> Path | None:
     """Return the library that a settings file names, if it names one."""
     from mlmg_runtime.building.toml_files import read_toml
 
@@ -48,4 +67,4 @@ def _library_of(settings: Path) -> Path | None:
         return None
     if not isinstance(named, str) or not named:
         file.fail(("library",), f"`library` should be the path of a library, as text; found {named!r}")
-    return settings.parent / named
+    return _named(named, settings.parent, progress)

@@ -6,6 +6,7 @@ import pytest
 
 from mlmg_lang.libraries import find_library
 from mlmg_runtime.errors import ConfigurationError
+from mlmg_runtime.library import Library
 
 
 @pytest.fixture
@@ -66,3 +67,26 @@ def test_settings_that_are_wrong_are_one_error_with_file_and_line(
     with pytest.raises(ConfigurationError) as caught:
         find_library(project / "a.ms")
     assert str(caught.value) == f"{project / 'mlmg.toml'}:{line}: {message}"
+
+
+def test_demo_is_the_demo_library_wherever_a_library_is_named(
+    project: Path, monkeypatch: pytest.MonkeyPatch, demo_library: Library
+) -> None:
+    monkeypatch.setenv("MLMG_CACHE", str(demo_library.path.parent))
+    assert find_library(project / "a.ms", "demo") == demo_library.path
+    (project / "mlmg.toml").write_text('library = "demo"\n', encoding="utf-8")
+    assert find_library(project / "a.ms") == demo_library.path
+    monkeypatch.setenv("MLMG_LIBRARY", "demo")
+    assert find_library("-") == demo_library.path
+
+
+def test_a_file_called_demo_is_meant_before_the_demo_library(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(project)
+    (project / "demo").write_bytes(b"")
+    assert find_library(project / "a.ms", "demo") == Path("demo")
+    (project / "mlmg.toml").write_text('library = "demo"\n', encoding="utf-8")
+    assert find_library(project / "a.ms") == project / "demo"
+
+
+def test_a_path_to_demo_is_never_the_demo_library(project: Path) -> None:
+    assert find_library(project / "a.ms", "./demo") == Path("demo")

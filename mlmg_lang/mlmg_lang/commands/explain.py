@@ -20,7 +20,6 @@ from __future__ import annotations
 import argparse
 import shutil
 import sys
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from mlmg_lang.commands.console import (
@@ -44,7 +43,7 @@ _NARROWEST = 60
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Say what the command takes."""
     parser.add_argument("script", metavar="SCRIPT.ms", help="the script; - reads standard input")
-    parser.add_argument("--library", metavar="L.mlmg", type=Path, help="the library that it is for")
+    parser.add_argument("--library", metavar="L.mlmg", help="the library that it is for; demo is the demo library")
     parser.add_argument("--start", metavar="MOTION", help="the motion of the whole body to start in")
     parser.add_argument(
         "--analyze", action="store_true", help="play it too, and set what happened beside the estimates"
@@ -65,14 +64,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Explain a script; return 1 if it has errors."""
-    from mlmg_lang.commands.demo import library_or_demo
+    from mlmg_lang.commands.demo import library_or_demo, named_library
     from mlmg_lang.explaining.explain import explanation_from_analysis
     from mlmg_lang.front_end import analyse
-    from mlmg_lang.libraries import find_library
     from mlmg_lang.looking_ahead import look_ahead
     from mlmg_lang.script_files import read_script, used_files
 
-    path = find_library(arguments.script, arguments.library)
+    path = named_library(arguments.script, arguments.library)
     refuse_overwriting([arguments.output], [arguments.script, path])
     refuse_unwritable([arguments.output])
     source, unreadable = read_script(arguments.script)

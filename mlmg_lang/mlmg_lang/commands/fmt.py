@@ -21,33 +21,31 @@ exit codes:
 from __future__ import annotations
 
 import argparse
-import os
 import sys
-from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING
 
 from mlmg_lang.commands.console import DONE, WRONG_CONTENT, WRONG_USAGE, add_use_option, tell
+from mlmg_lang.commands.scripts import ENDING, STANDARD, scripts_named
 
 if TYPE_CHECKING:
     from mlmg_lang.catalog import Catalog
     from mlmg_lang.diagnostics import Diagnostic
     from mlmg_lang.source import Source
 
-_STANDARD: Final = "-"
-_ENDING: Final = ".ms"
-
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Say what the command takes."""
     what = "a script, or a folder of them; - reads standard input and writes standard output"
-    parser.add_argument("scripts", nargs="+", metavar="SCRIPT", help=what)
+    parser.add_argument("scripts", nargs="*", metavar="SCRIPT", help=what)
     parser.add_argument("--check", action="store_true", help="write nothing; list the scripts that would be rewritten")
     parser.add_argument("--diff", action="store_true", help="write nothing; show what would change")
     parser.add_argument("--fix", action="store_true", help="write names as the library spells them, too")
-    parser.add_argument("--library", metavar="L.mlmg", help="the library whose spellings --fix takes")
+    parser.add_argument(
+        "--library", metavar="L.mlmg", help="the library whose spellings --fix takes; demo is the demo library"
+    )
     add_use_option(parser)
 
 
@@ -56,7 +54,7 @@ def run(arguments: argparse.Namespace) -> int:
     only_shown = arguments.check or arguments.diff
     speller = _Speller(arguments.library, arguments.allow_use) if arguments.fix else None
     tally = _Tally()
-    for script in _scripts(arguments.scripts, tally.refused):
+    for script in scripts_named(arguments.scripts, tally.refused, "mlmg fmt"):
         try:
             rewriting = _rewrite(script, speller)
             if only_shown:
@@ -72,24 +70,6 @@ def run(arguments: argparse.Namespace) -> int:
             _tell_mistakes(rewriting, only_shown)
     tally.sum_up("would be rewritten" if only_shown else "rewritten")
     return tally.exit_code(only_shown)
-
-
-def _scripts(names: Iterable[str], refused: Callable[[OSError], None]) -> Iterator[str]:
-    """Yield every script once, those of folders in the order of their paths."""
-    taken: set[str] = set()
-    for name in names:
-        is_folder = name != _STANDARD and os.path.isdir(name)
-        for script in _in_folder(name, refused) if is_folder else [name]:
-            real = script if script == _STANDARD else os.path.realpath(script)
-            if real not in taken:
-                taken.add(real)
-                yield script
-
-
-def _in_folder(folder: str, refused: Callable[[OSError], None]) -> Iterator[str]:
-    for place, folders, files in os.walk(folder, onerror=refused):
-        folders[:] = sorted(name for name in folders if not name.startswith("."))
-        yield from (os.path.normpath(os.path.join(place, name)) for name in sorted(files) if name.endswith(_ENDING))
 
 
 # --- one script ------------------------------------------------------------------------------------------
@@ -126,7 +106,7 @@ def _rewrite(script: str, speller: _Speller | None) -> _Rewriting:
     from mlmg_lang.script_files import source_from_bytes
     from mlmg_lang.source import Source
 
-    is_standard = script == _STANDARD
+    is_standard = script == STANDARD
     data = sys.stdin.buffer.read() if is_standard else Path(script).read_bytes()
     source, unreadable = source_from_bytes(data, "<stdin>" if is_standard else script)
     if unreadable:
@@ -152,7 +132,7 @@ def _write(rewriting: _Rewriting) -> None:
     from mlmg_runtime.files import atomic_output
 
     data = rewriting.after.text.encode("utf-8")
-    if rewriting.script == _STANDARD:
+    if rewriting.script == STANDARD:
         if not rewriting.unreadable:
             sys.stdout.buffer.write(data)
     elif rewriting.changes:
@@ -193,12 +173,12 @@ class _Speller:
 
     def spelt(self, source: Source, script: str) -> Source:
         """Return a script with exact names; as it is if it has no library, or uses definitions that are not there."""
+        from mlmg_lang.commands.demo import named_library
         from mlmg_lang.formatting.exact_names import with_exact_names
         from mlmg_lang.front_end import analyse
-        from mlmg_lang.libraries import find_library
         from mlmg_lang.script_files import used_files
 
-        path = find_library(script, self._library)
+        path = named_library(script, self._library)
         if path is None:
             if not self._told:
                 tell("without a library, names are left as they are")
@@ -235,7 +215,7 @@ class _Tally:
         self.rewritten += rewriting.changes
         self.left += not rewriting.changes
         self.wrong += not rewriting.whole or bool(rewriting.unreadable)
-        self.files += rewriting.script != _STANDARD
+        self.files += rewriting.script != STANDARD
 
     def refused(self, error: OSError, script: str = "") -> None:
         """Count and tell what cannot be read or written."""
@@ -248,7 +228,7 @@ class _Tally:
             counts = [(self.rewritten, done), (self.left, "left as they are" if self.left > 1 else "left as it is")]
             tell(", ".join(f"{n} script{'' if n == 1 else 's'} {what}" for n, what in counts if n))
         elif not (self.rewritten or self.left or self.refusals):
-            tell(f"there is no script (*{_ENDING}) in this folder")
+            tell(f"there is no script (*{ENDING}) in this folder")
 
     def exit_code(self, only_shown: bool) -> int:
         """Return how the command ends."""

@@ -13,10 +13,9 @@ import csv
 import json
 import sys
 from collections.abc import Iterable, Iterator
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from mlmg_lang.commands.console import DONE, ProgressLine
+from mlmg_lang.commands.console import DONE
 
 if TYPE_CHECKING:
     from mlmg_runtime.library import Library
@@ -24,9 +23,7 @@ if TYPE_CHECKING:
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the command's arguments."""
-    parser.add_argument(
-        "library", metavar="L.mlmg", type=Path, nargs="?", help="a library; without it, the demo library"
-    )
+    parser.add_argument("library", metavar="L.mlmg", nargs="?", help="a library; demo, or nothing, is the demo library")
     what = parser.add_mutually_exclusive_group()
     what.add_argument("--json", action="store_true", help="everything as JSON")
     what.add_argument("--transitions", metavar="GRAPH", help="the transitions of a graph as CSV")
@@ -36,9 +33,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Print what is asked for."""
-    from mlmg_lang.libraries import find_library
+    from mlmg_lang.commands.demo import demo_path, named_library
+    from mlmg_runtime.library import open_library
 
-    library = _open(find_library("-", arguments.library))
+    library = open_library(named_library("-", arguments.library) or demo_path())
     for rows, graph in (
         (_transitions, arguments.transitions),
         (_oms, arguments.oms),
@@ -54,20 +52,6 @@ def run(arguments: argparse.Namespace) -> int:
     else:
         print("\n".join(_lines(description)))
     return DONE
-
-
-def _open(path: Path | None) -> Library:
-    from mlmg_runtime.library import open_library
-
-    if path is None:
-        from mlmg_runtime.demo.library import demo_library
-
-        progress = ProgressLine()
-        try:
-            path = demo_library(progress)
-        finally:
-            progress.clear()
-    return open_library(path)
 
 
 def _graph(library: Library, name: str) -> str:

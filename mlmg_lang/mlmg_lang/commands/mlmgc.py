@@ -16,7 +16,6 @@ from mlmg_lang.commands.console import (
     DONE,
     WRONG_CONTENT,
     WRONG_USAGE,
-    ProgressLine,
     UsageError,
     add_use_option,
     frame_rate,
@@ -73,7 +72,7 @@ def _parser() -> argparse.ArgumentParser:
         required=True,
         help="the motion to write; - writes standard output",
     )
-    parser.add_argument("--library", metavar="L.mlmg", type=Path, help="the library to play on")
+    parser.add_argument("--library", metavar="L.mlmg", help="the library to play on; demo is the demo library")
     parser.add_argument("--start", metavar="MOTION", help="the motion of the whole body to start in")
     parser.add_argument("--seed", metavar="N", type=int, default=0, help="for what is drawn by chance (0)")
     parser.add_argument(
@@ -146,13 +145,13 @@ def _play(arguments: argparse.Namespace, inputs: Inputs, libraries: Libraries, s
     ----------
     inputs : where the files are noted that this depends on.
     """
+    from mlmg_lang.commands.demo import named_library
     from mlmg_lang.front_end import analyse
-    from mlmg_lang.libraries import find_library
     from mlmg_lang.script_files import read_script, used_files
 
     inputs.note(arguments.script)
     inputs.note_settings(arguments.script)
-    library_path = find_library(arguments.script, arguments.library)
+    library_path = named_library(arguments.script, arguments.library)
     outputs = [arguments.output, arguments.report]
     refuse_overwriting(outputs, [arguments.script, library_path])
     _refuse_other_formats(arguments.output)
@@ -199,27 +198,12 @@ class Libraries:
 
     def open(self, path: Path | None, inputs: Inputs) -> Library:
         """Return a library, and note its file; where none is named, the demo library."""
+        from mlmg_lang.commands.demo import library_or_demo
+
         state = None if path is None else inputs.note(path)
         if self._opened is None or self._opened[:2] != (path, state):
-            self._opened = (path, state, _library(path))
+            self._opened = (path, state, library_or_demo(path, "mlmgc"))
         return self._opened[2]
-
-
-def _library(path: Path | None) -> Library:
-    """Open a library; where none is named, the demo library, and say so."""
-    from mlmg_runtime.library import open_library
-
-    if path is not None:
-        return open_library(path)
-    from mlmg_runtime.demo.library import demo_library
-
-    progress = ProgressLine()
-    try:
-        path = demo_library(progress)
-    finally:
-        progress.clear()
-    tell("mlmgc: no library is named (--library, MLMG_LIBRARY, mlmg.toml): playing on the demo library")
-    return open_library(path)
 
 
 def _show(source: Source, diagnostics: tuple[Diagnostic, ...]) -> None:

@@ -14,6 +14,7 @@ from mlmg_lang.definitions.parameters import Kind, Signature, references
 from mlmg_lang.diagnostics import Diagnostic, Fix, Note
 from mlmg_lang.parsing import syntax
 from mlmg_lang.parsing.layout import MAX_DEPTH
+from mlmg_lang.parsing.lexical import script_name
 from mlmg_lang.source import Span
 from mlmg_lang.spelling import listed, nearest, normal
 
@@ -61,13 +62,16 @@ def told_from(one: Diagnostic, command: Span) -> Diagnostic:
 
 
 def _unused(script: syntax.Script, definitions: Definitions) -> Iterator[Diagnostic]:
-    """Yield the definitions of a script that nothing in it uses; what could not be read may use all."""
-    if any(isinstance(node, syntax.Broken) for node in syntax.walk(script)):
-        return
+    """Yield the definitions of a script that nothing in it uses; what could not be read may use all.
+
+    A script of nothing but definitions is there for others to use.
+    """
     used: set[str] = set()
-    pending: list[syntax.Item] = [item for item in script.items if not isinstance(item, syntax.Let | syntax.Use)]
-    for item in pending:
-        for node in syntax.walk(item):
+    statements = [item for item in script.items if not isinstance(item, syntax.Let | syntax.Use)]
+    if not statements or any(isinstance(node, syntax.Broken) for node in syntax.walk(script)):
+        return
+    for statement in statements:
+        for node in syntax.walk(statement):
             if isinstance(node, syntax.Reference | syntax.Call):
                 used.add(normal(node.name.text))
     names = list(used)
@@ -279,7 +283,11 @@ class _Expander:
                 values[name] = self._measured(parameter.default, {}, depth + 1)
         missing = [p.name.text for p in let.parameters or () if normal(p.name.text) not in values]
         if missing:
-            raise self._misfit(use.span, f"`{let.name.text}` is used without its {listed(missing)}", let)
+            message = f"`{let.name.text}` is used without its {listed(missing)}"
+            advice = "write them in the parentheses, separated by `,`"
+            if len(missing) == 1:
+                advice = f"write a {signature.kinds[normal(missing[0])] or 'motion'} for it in the parentheses"
+            raise self._misfit(use.span, message, let, advice)
         return values
 
     def _given(
@@ -288,24 +296,27 @@ class _Expander:
         """Return the arguments of a use by the parameters that they are for."""
         names = [parameter.name.text for parameter in let.parameters or ()]
         if isinstance(use, syntax.Call) and let.parameters is None:
-            raise self._misfit(use.span, f"`{let.name.text}` takes no arguments", let)
+            take_out = Fix(
+                Span(use.name.span.end, use.span.end), "", safe=not use.arguments, name="take the parentheses out"
+            )
+            message, advice = f"`{let.name.text}` takes no arguments", f"write `{script_name(let.name.text)}` alone"
+            raise self._misfit(use.span, message, let, advice, (take_out,))
         given: dict[str, syntax.Argument] = {}
         named = False
         for at, argument in enumerate(arguments):
             named = named or argument.name is not None
             if argument.name is None and named:
-                raise self._misfit(argument.span, "an argument without a name stands before those with one", let)
+                message = "an argument without a name stands before those with one"
+                raise self._misfit(argument.span, message, let, "write its name and `=` before it")
             if argument.name is None and at >= len(names):
                 many = f"{len(names)} argument{'' if len(names) == 1 else 's'}" if names else "no arguments"
-                raise self._misfit(argument.span, f"`{let.name.text}` takes {many}", let)
+                raise self._misfit(argument.span, f"`{let.name.text}` takes {many}", let, "take this one out")
             written = names[at] if argument.name is None else argument.name.text
             if normal(written) not in map(normal, names):
-                near = nearest(written, names, limit=1) or names
                 assert argument.name is not None
-                message = f"`{let.name.text}` has no parameter `{written}`"
-                raise self._misfit(argument.name.span, message, let, f"it has {listed(near)}" if near else None)
+                raise self._no_parameter(argument.name, names, let)
             if normal(written) in given:
-                raise self._misfit(argument.span, f"`{written}` is given twice", let)
+                raise self._misfit(argument.span, f"`{written}` is given twice", let, "take one of them out")
             given[normal(written)] = argument
         return given
 
@@ -331,11 +342,19 @@ class _Expander:
             raise self._fail(Diagnostic("MS056", message, argument.span, f"write a {kind}, {example}", (note,)))
         return self._measured(value, outside, depth + 1)
 
-    def _misfit(self, span: Span, message: str, let: syntax.Let, advice: str | None = None) -> _Failed:
+    def _no_parameter(self, name: syntax.Name, names: list[str], let: syntax.Let) -> _Failed:
+        near = nearest(name.text, names, limit=1)
+        advice = f"it has {listed(near or names)}" if names else None
+        fixes = tuple(Fix(name.span, script_name(word), safe=False) for word in near)
+        return self._misfit(name.span, f"`{let.name.text}` has no parameter `{name.text}`", let, advice, fixes)
+
+    def _misfit(
+        self, span: Span, message: str, let: syntax.Let, advice: str | None = None, fixes: tuple[Fix, ...] = ()
+    ) -> _Failed:
         takes = ", ".join(_shown(parameter) for parameter in let.parameters or ())
         written = f"{let.name.text}({takes})" if let.parameters is not None else let.name.text
         note = Note(f"it is defined here as `{written}`", let.name.span)
-        return self._fail(Diagnostic("MS055", message, span, advice, (note,)))
+        return self._fail(Diagnostic("MS055", message, span, advice, (note,), fixes))
 
     def _fail(self, diagnostic: Diagnostic) -> _Failed:
         self.diagnostics.append(diagnostic)

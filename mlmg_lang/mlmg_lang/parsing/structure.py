@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 from mlmg_lang.diagnostics import Diagnostic, Fix
 from mlmg_lang.parsing import syntax
 from mlmg_lang.parsing.amounts import UNITS, seconds_from_quantity, unit_of
+from mlmg_lang.parsing.lexical import script_name
 from mlmg_lang.source import Span
-from mlmg_lang.spelling import normal
+from mlmg_lang.spelling import listed, nearest, normal
 
 SUB = "Sub"
 """In place of a graph's name: the child of the graph last named."""
@@ -29,7 +30,7 @@ def misplaced(script: syntax.Script) -> Iterator[Diagnostic]:
 
 
 def check_structure(
-    script: syntax.Script, frame_rate: float | None = None, complete: bool = True
+    script: syntax.Script, frame_rate: float | None = None, complete: bool = True, own: Sequence[str] = ()
 ) -> Iterator[Diagnostic]:
     """Yield what can be said of a script without a library, when its definitions have been put in.
 
@@ -37,15 +38,16 @@ def check_structure(
     ----------
     frame_rate : of the library, if there is one; it says how long frames are.
     complete : False if a file with definitions could not be used, so that any name may be one.
+    own : the names of all definitions.
     """
-    yield from _Structure(frame_rate, complete).body(script.items)
+    yield from _Structure(frame_rate, complete, own).body(script.items)
 
 
 def check_definition(let: syntax.Let, frame_rate: float | None = None) -> Iterator[Diagnostic]:
     """Yield what can be said of a definition wherever it is used."""
     structure = _Structure(frame_rate, False)
     yield from structure.motion(let.command.motion, sub=True)
-    parameters = frozenset(normal(parameter.name.text) for parameter in let.parameters or ())
+    parameters = tuple(parameter.name.text for parameter in let.parameters or ())
     if let.command.duration is not None:
         yield from structure.duration(let.command.duration, _written(let.command), parameters)
 
@@ -94,6 +96,7 @@ class _Structure:
 
     frame_rate: float | None
     complete: bool
+    own: Sequence[str] = ()
 
     def body(self, items: Iterable[syntax.Item]) -> Iterator[Diagnostic]:
         for item in items:
@@ -129,18 +132,21 @@ class _Structure:
 
     def _command(self, command: syntax.Command) -> Iterator[Diagnostic]:
         yield from self.motion(command.motion, sub=False)
-        if command.duration is not None:
+        # A name comes from a definition where it stands elsewhere, and has been looked at there.
+        if command.duration is not None and (
+            isinstance(command.duration, syntax.Quantity) or _is_within(command.duration, command)
+        ):
             yield from self.duration(command.duration, _written(command))
 
     # --- durations ---
 
     def duration(
-        self, amount: syntax.Amount, whole: Span | None, parameters: frozenset[str] = frozenset()
+        self, amount: syntax.Amount, whole: Span | None, parameters: Sequence[str] = ()
     ) -> Iterator[Diagnostic]:
         """Yield what is wrong with a duration; `whole` is what could be taken out if it lasts no time, if anything."""
         if isinstance(amount, syntax.Name):
-            if amount.sound and normal(amount.text) not in parameters:
-                yield _no_number(amount)
+            if amount.sound and normal(amount.text) not in map(normal, parameters):
+                yield _no_number(amount, parameters)
             return
         number = float(amount.number)
         seconds = seconds_from_quantity(amount, self.frame_rate)
@@ -200,9 +206,11 @@ class _Structure:
         if inner is not None:
             yield from self._set(inner, sub, "a graph")
             return
-        message = f"`{call.name.text}` is not a definition, so it takes no arguments"
-        advice = "after a graph's name, write one motion expression in the parentheses"
-        yield Diagnostic("MS028", message, call.span, help=advice)
+        yield _no_definition(call, self.own)
+
+
+def _is_within(part: syntax.Node, whole: syntax.Node) -> bool:
+    return whole.span.start <= part.span.start and part.span.end <= whole.span.end
 
 
 def _written(command: syntax.Command) -> Span | None:
@@ -218,14 +226,40 @@ def _nested(item: syntax.Let | syntax.Use) -> Diagnostic:
     return Diagnostic("MS015", f"`{word}` stands at the top level of a script alone", item.span, help=advice)
 
 
-def _no_number(amount: syntax.Name) -> Diagnostic:
+def _no_number(amount: syntax.Name, parameters: Sequence[str]) -> Diagnostic:
     """Say what is wrong with `for sec` or `for t`."""
     if not amount.quoted and amount.text in UNITS:
         unit = UNITS[amount.text]
         advice = f"write how many, as in `10 {unit}`"
         return Diagnostic("MS017", f"how many {unit}? The number is missing", amount.span, help=advice)
+    near = nearest(amount.text, parameters, limit=1)
+    if near:
+        message = f"`{amount.text}` is not a parameter of this definition"
+        fix = Fix(amount.span, script_name(near[0]), safe=False)
+        return Diagnostic("MS027", message, amount.span, f"there is the parameter `{near[0]}`", fixes=(fix,))
     message = f"`{amount.text}` is not a duration, nor a parameter of a definition that this stands in"
     return Diagnostic("MS027", message, amount.span, help="write how long, as in `10 sec`")
+
+
+def _no_definition(call: syntax.Call, own: Sequence[str]) -> Diagnostic:
+    """Say what is wrong with arguments for something that is not defined."""
+    name = call.name
+    message = f"`{name.text}` is not a definition, so it takes no arguments"
+    near = nearest(name.text, own)
+    if near:
+        fixes = tuple(Fix(name.span, script_name(word), safe=False) for word in near)
+        return Diagnostic("MS028", message, name.span, f"there is the definition {listed(near, 'or')}", fixes=fixes)
+    if not call.arguments:
+        empty = Fix(Span(name.span.end, call.span.end), "", safe=True, name="take the parentheses out")
+        advice = f"write `{script_name(name.text)}` without parentheses"
+        return Diagnostic("MS028", message, call.span, advice, fixes=(empty,))
+    argument = call.arguments[0].value
+    if len(call.arguments) == 1 and isinstance(argument, syntax.Quantity):
+        right = f"{script_name(name.text)} for {argument.number} {argument.unit}"
+        fix = Fix(call.span, right, safe=False)
+        return Diagnostic("MS028", message, call.span, f"for how long, write `{right}`", fixes=(fix,))
+    advice = "after a graph's name, write one motion expression in the parentheses"
+    return Diagnostic("MS028", message, call.span, help=advice)
 
 
 def _misplaced_sub(graph: syntax.Name) -> Diagnostic:

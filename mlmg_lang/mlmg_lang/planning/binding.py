@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
 
 from mlmg_lang.diagnostics import Diagnostic, Fix
 from mlmg_lang.parsing import syntax
 from mlmg_lang.parsing.case import is_shouted, wrong_case
+from mlmg_lang.parsing.foreign import NEXT, other_word
 from mlmg_lang.parsing.lexical import script_name
 from mlmg_lang.parsing.structure import SUB, group_of, is_sub
 from mlmg_lang.planning.names import Names
 from mlmg_lang.source import Span
-from mlmg_lang.spelling import is_slip_of, listed, nearest, normal
+from mlmg_lang.spelling import folded, is_slip_of, listed, nearest, normal
 
 _MAX_LISTED = 8
 """The most names that a message lists when none is like the one written."""
@@ -27,16 +28,24 @@ class Scope:
     definitions : the names that are defined where the expression stands; elsewhere they have been put in.
     open : whether a file that defines more could not be used.
     parameters : of the definition that the expression stands in.
+    own : all definitions of the script, by name: what may have been meant.
     """
 
     names: Names
     definitions: frozenset[str]
     open: bool
     parameters: frozenset[str] = frozenset()
+    own: Mapping[str, syntax.Let] = field(default_factory=dict)
 
     def defines(self, name: syntax.Name) -> bool:
         """Return whether a name is one of the script's own."""
         return normal(name.text) in self.definitions or normal(name.text) in self.parameters
+
+    def kind_of_own(self, name: str) -> str | None:
+        """Return what a name of the script's own stands for, in a word; None for other names."""
+        if normal(name) in self.parameters:
+            return "parameter"
+        return "definition" if normal(name) in self.own else None
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,6 +77,16 @@ def graph_hints(motion: syntax.Motion, names: Names) -> Iterator[Diagnostic]:
                 yield from inexact(name, meant)
 
 
+def spelling_hints(motion: syntax.Motion, scope: Scope) -> Iterator[Diagnostic]:
+    """Yield the names in a definition that the library spells otherwise, and in one way only."""
+    yield from graph_hints(motion, scope.names)
+    for node in syntax.walk(motion):
+        if isinstance(node, syntax.Reference) and not scope.defines(node.name):
+            spellings = set(scope.names.spellings_of(node.name.text))
+            if len(spellings) == 1:
+                yield from inexact(node.name, spellings.pop())
+
+
 def inexact(name: syntax.Name, meant: str) -> Iterator[Diagnostic]:
     """Yield a hint if a name is not spelt as it should be."""
     if normal(name.text) != normal(meant):
@@ -85,7 +104,9 @@ def graph_name(name: syntax.Name, scope: Scope) -> Iterator[Unbound]:
     elif is_shouted(name) and not scope.names.places(name.text):
         yield Unbound(wrong_case(name))
     elif scope.names.places(name.text):
-        yield Unbound(_not_a_graph(name, scope.names))
+        yield Unbound(_not_a_graph(name, _kind(name, scope.names), scope.names))
+    elif normal(name.text) in scope.own:
+        yield Unbound(_not_a_graph(name, "definition", scope.names))
     else:
         yield Unbound(_unknown_graph(name, scope.names))
 
@@ -137,26 +158,44 @@ def _qualified(node: syntax.Qualified, scope: Scope) -> Iterator[Unbound]:
         return
     name = node.motion.name
     inner = list(_motion_name(name, scope, _meant(graph, names)))
-    if wrong and names.graph(name.text) is not None and names.places(graph.text):
-        yield Unbound(_swapped(node, names))
+    is_known = bool(names.places(graph.text))
+    if wrong and names.graph(name.text) is not None and other_word(graph.text, "end"):
+        yield Unbound(_for_end(node))
+    elif wrong and graph.text.lower() in NEXT:
+        yield Unbound(_comes_next(graph))
+    elif wrong and is_known and (swapped := _graph_meant(name, inner, names)) is not None:
+        yield Unbound(_swapped(node, swapped, names))
     elif wrong and is_shouted(graph):
         yield from wrong
-    elif wrong and not inner and names.places(graph.text):
+    elif wrong and not inner and is_known:
         yield Unbound(_side_by_side(node, names))
+    elif wrong and normal(graph.text) in scope.own:
+        yield Unbound(_definition_as_graph(node, scope.own[normal(graph.text)]))
     elif wrong and inner and is_shouted(name):
         yield from inner
-    elif wrong and inner and not name.quoted and is_slip_of(name.text, "once") and names.places(graph.text):
+    elif wrong and inner and not name.quoted and is_slip_of(name.text, "once") and is_known:
         yield Unbound(_misspelt_once(name))
     else:
         yield from (*wrong, *inner)
+
+
+def _graph_meant(name: syntax.Name, wrong: Sequence[Unbound], names: Names) -> str | None:
+    """Return the graph that a name is, or that it is most like if it is nothing else."""
+    graph = names.graph(name.text)
+    if graph is not None or not any(one.diagnostic is not None and one.diagnostic.code == "MS021" for one in wrong):
+        return graph
+    near = nearest(name.text, (*names.graphs, *names.spellings()), limit=1)
+    return near[0] if near and near[0] in names.graphs else None
 
 
 def _called(node: syntax.Call, name: syntax.Name, scope: Scope) -> Iterator[Unbound]:
     foreign = scope.open and not is_sub(name) and scope.names.graph(name.text) is None
     if foreign or scope.defines(name) or group_of(node) is None:
         yield Unbound(None)
-    else:
-        yield from graph_name(name, scope)
+        return
+    wrong = list(graph_name(name, scope))
+    near = _own_like(name.text, scope.own.values()) if wrong and not scope.names.places(name.text) else ()
+    yield from (Unbound(_unknown_definition(name, near)),) if near else wrong
 
 
 def _motion_name(name: syntax.Name, scope: Scope, on: Sequence[str]) -> Iterator[Unbound]:
@@ -173,32 +212,47 @@ def _motion_name(name: syntax.Name, scope: Scope, on: Sequence[str]) -> Iterator
     elif scope.names.graph(name.text) is not None or is_sub(name):
         yield Unbound(_graph_alone(name, scope.names))
     else:
-        yield Unbound(_unknown(name, scope.names, on))
+        yield Unbound(_unknown(name, scope, on))
 
 
 # --- what to say -----------------------------------------------------------------------------------------
 
 
-def _unknown(name: syntax.Name, names: Names, on: Sequence[str]) -> Diagnostic:
+def _unknown(name: syntax.Name, scope: Scope, on: Sequence[str]) -> Diagnostic:
+    names = scope.names
     message = f"no tag or motion `{name.text}` in this library"
-    near = nearest(name.text, (word for graph in on for word in names.spellings_on(graph)))
+    own = (*scope.parameters, *(let.name.text for let in scope.own.values()))
+    same = tuple(word for word in own if folded(word) == folded(name.text))
+    near = same or nearest(name.text, (*own, *(word for graph in on for word in names.spellings_on(graph))))
     near = near or nearest(name.text, names.spellings())
     if not near:
         near_graph = nearest(name.text, names.graphs, limit=1)
         advice = f"there is a graph `{near_graph[0]}`" if near_graph else _all_names(names, on)
         return Diagnostic("MS021", message, name.span, advice)
+    fixes = tuple(Fix(name.span, script_name(word), safe=len(same) == 1) for word in near)
+    return Diagnostic("MS021", message, name.span, _where(near, scope, on), fixes=fixes)
+
+
+def _own_like(name: str, lets: Iterable[syntax.Let]) -> tuple[str, ...]:
+    """Return the definitions that can be used with arguments, and whose names look most like one."""
+    return nearest(name, (let.name.text for let in lets if let.parameters))
+
+
+def _unknown_definition(name: syntax.Name, near: Sequence[str]) -> Diagnostic:
+    message = f"`{name.text}` is neither a definition nor a graph"
     fixes = tuple(Fix(name.span, script_name(word), safe=False) for word in near)
-    return Diagnostic("MS021", message, name.span, _where(near, names, on), fixes=fixes)
+    return Diagnostic("MS028", message, name.span, f"there is the definition {listed(near, 'or')}", fixes=fixes)
 
 
-def _where(words: Sequence[str], names: Names, on: Sequence[str]) -> str:
+def _where(words: Sequence[str], scope: Scope, on: Sequence[str]) -> str:
     """Return on which graph there are some names, those of one graph together; of several, the first of `on`."""
-    by_graph: dict[str, list[str]] = {}
+    by_place: dict[str, list[str]] = {}
     for word in words:
-        places = names.places(word)
-        place = next((graph for graph in on if graph in places), places[0])
-        by_graph.setdefault(place, []).append(word)
-    return "; ".join(f"on {graph} there is {listed(found, 'or')}" for graph, found in by_graph.items())
+        kind = scope.kind_of_own(word)
+        graphs = () if kind else scope.names.places(word)
+        place = f"there is the {kind}" if kind else f"on {next((g for g in on if g in graphs), graphs[0])} there is"
+        by_place.setdefault(place, []).append(word)
+    return "; ".join(f"{place} {listed(found, 'or')}" for place, found in by_place.items())
 
 
 def _all_names(names: Names, on: Sequence[str]) -> str | None:
@@ -209,7 +263,7 @@ def _all_names(names: Names, on: Sequence[str]) -> str | None:
 
 
 def _unknown_graph(name: syntax.Name, names: Names) -> Diagnostic:
-    near = nearest(name.text, names.graphs)
+    near = nearest(name.text, (*names.graphs, *([SUB] if len(names.graphs) > 1 else [])))
     message = f"no graph `{name.text}` in this library"
     advice = f"the graphs are {listed(names.graphs)}" if len(names.graphs) > 1 else f"its one graph is `{names.root}`"
     if near:
@@ -218,17 +272,43 @@ def _unknown_graph(name: syntax.Name, names: Names) -> Diagnostic:
     return Diagnostic("MS026", message, name.span, advice, fixes=fixes)
 
 
-def _not_a_graph(name: syntax.Name, names: Names) -> Diagnostic:
-    kind = _kind(name, names)
+def _not_a_graph(name: syntax.Name, kind: str, names: Names) -> Diagnostic:
     message = f"`{name.text}` is a {kind}, not a graph"
     return Diagnostic("MS025", message, name.span, f"the graphs are {listed(names.graphs)}")
 
 
-def _swapped(node: syntax.Qualified, names: Names) -> Diagnostic:
-    graph, motion = names.graph(node.motion.name.text), node.graph
-    right = f"{script_name(graph or '')} {script_name(motion.text)}"
+def _swapped(node: syntax.Qualified, graph: str, names: Names) -> Diagnostic:
+    motion = node.graph
+    right = f"{script_name(graph)} {script_name(motion.text)}"
     message = f"`{motion.text}` is a {_kind(motion, names)}, not a graph; the graph comes first"
-    return Diagnostic("MS025", message, node.span, f"write `{right}`", fixes=(Fix(node.span, right, safe=True),))
+    fix = Fix(node.span, right, safe=names.graph(node.motion.name.text) is not None)
+    return Diagnostic("MS025", message, node.span, f"write `{right}`", fixes=(fix,))
+
+
+def _definition_as_graph(node: syntax.Qualified, let: syntax.Let) -> Diagnostic:
+    """Say what `GREET WALK` is, where `GREET` is defined."""
+    name, argument = node.graph.text, node.motion.name.text
+    message = f"`{name}` is a definition, not a graph"
+    if not let.parameters:
+        place = Span(node.motion.span.start, node.motion.span.start)
+        advice = f"for both at once, write `{script_name(name)} with {script_name(argument)}`"
+        return Diagnostic("MS025", message, node.span, advice, fixes=(Fix(place, "with ", safe=False),))
+    right = f"{script_name(name)}({script_name(argument)})"
+    fix = Fix(node.span, right, safe=len(let.parameters) == 1)
+    return Diagnostic("MS025", message, node.span, f"write `{right}`", fixes=(fix,))
+
+
+def _for_end(node: syntax.Qualified) -> Diagnostic:
+    """Say what `stop Upper-Body` is."""
+    message = f"`{node.graph.text}` is not a word of the language"
+    advice = f"to give a part back to the rest of the body, write `end {script_name(node.motion.name.text)}`"
+    return Diagnostic("MS019", message, node.graph.span, advice, fixes=(Fix(node.graph.span, "end", safe=False),))
+
+
+def _comes_next(word: syntax.Name) -> Diagnostic:
+    """Say what is wrong with `WALK and then IDLE`."""
+    advice = "what is played later stands on a line of its own, or after `;`"
+    return Diagnostic("MS019", f"`{word.text}` is not a word of the language", word.span, advice)
 
 
 def _misspelt_once(name: syntax.Name) -> Diagnostic:

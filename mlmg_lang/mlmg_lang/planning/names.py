@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from enum import StrEnum
 
@@ -138,6 +138,13 @@ class Names:
     def places(self, written: str) -> tuple[str, ...]:
         """Return the graphs on which a written name means something."""
         return tuple(graph for graph in self.graphs if self.find_unqualified(graph, written) is not None)
+
+    def spellings_of(self, written: str) -> Iterator[str]:
+        """Yield what a written name could mean, as it is spelt: on each graph, and once more where it fits several."""
+        for graph in self.graphs:
+            match = self.find_unqualified(graph, written)
+            if match is not None:
+                yield from (entry.name for entry in (match.entry, *match.others))
 
     def spellings_on(self, graph: str) -> tuple[str, ...]:
         """Return the tags on a graph, then its motions."""

@@ -12,7 +12,7 @@ from mlmg_lang.parsing import syntax
 from mlmg_lang.parsing.amounts import seconds_from_quantity, unit_of
 from mlmg_lang.parsing.structure import is_sub, motion_mistakes
 from mlmg_lang.planning import typed
-from mlmg_lang.planning.binding import Scope, Unbound, graph_hints, graph_name, inexact, unbound
+from mlmg_lang.planning.binding import Scope, Unbound, graph_hints, graph_name, inexact, spelling_hints, unbound
 from mlmg_lang.planning.names import Kind, Names
 from mlmg_lang.planning.select import select
 from mlmg_lang.source import Source, Span
@@ -38,7 +38,8 @@ def plan(script: syntax.Script, definitions: Definitions, names: Names, frame_ra
     ----------
     definitions : those of the script; what is wrong with their names is reported where they stand.
     """
-    planner = _Planner(Scope(names, frozenset(), not definitions.complete), frame_rate, source)
+    scope = Scope(names, frozenset(), not definitions.complete, own=definitions.lets)
+    planner = _Planner(scope, frame_rate, source)
     planner.define(definitions)
     statements = planner.body(script.items)
     return Planned(typed.TypedPlan(statements), tuple(planner.diagnostics))
@@ -61,6 +62,7 @@ class _Planner:
             own = frozenset(normal(parameter.name.text) for parameter in let.parameters or ())
             scope = replace(self._scope, definitions=known, parameters=own)
             self._report(unbound(let.command.motion, scope))
+            self.diagnostics += spelling_hints(let.command.motion, scope)
             for parameter in let.parameters or ():
                 if parameter.default is not None and not isinstance(parameter.default, syntax.Quantity):
                     self._report(unbound(parameter.default, replace(scope, parameters=frozenset())))

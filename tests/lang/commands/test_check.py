@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 from mlmg_lang.commands import mlmg
+from mlmg_runtime.library import Library
 
 RIGHT = "WALK with Upper-Body TALK for 10 sec\n"
 WRONG = "WALK FOR 10 SEC\n"
@@ -89,10 +90,28 @@ def test_a_hyphen_is_standard_input(capsys: pytest.CaptureFixture[str], monkeypa
     assert capsys.readouterr().out.startswith("<stdin>:1:6: error[MS011]: ")
 
 
-def test_no_script_is_wrong_usage() -> None:
-    with pytest.raises(SystemExit) as left:
-        mlmg.main(["check"])
-    assert left.value.code == 2
+def test_without_a_script_it_is_said_what_to_write(capsys: pytest.CaptureFixture[str]) -> None:
+    assert mlmg.main(["check"]) == 2
+    assert capsys.readouterr().err == (
+        "mlmg check: error: no script is named; `mlmg check stroll.ms` takes one, "
+        "`mlmg check .` all in this folder and below\n"
+    )
+
+
+def test_of_a_folder_all_scripts_are_checked_but_for_hidden_folders(capsys: pytest.CaptureFixture[str]) -> None:
+    for folder in ("scenes", "scenes/deep", "scenes/.hidden"):
+        Path(folder).mkdir()
+        Path(folder, "wrong.ms").write_text(WRONG, encoding="utf-8")
+    Path("scenes/notes.txt").write_text(WRONG, encoding="utf-8")
+    assert mlmg.main(["check", "--format", "concise", "scenes", "scenes/wrong.ms"]) == 1
+    files = [line.partition(":")[0] for line in capsys.readouterr().out.splitlines()]
+    assert files == ["scenes/wrong.ms", "scenes/deep/wrong.ms"]
+
+
+def test_a_folder_without_scripts_is_told(capsys: pytest.CaptureFixture[str]) -> None:
+    Path("empty").mkdir()
+    assert mlmg.main(["check", "empty"]) == 0
+    assert capsys.readouterr().err == "there is no script (*.ms) in this folder\n"
 
 
 def test_github_and_sarif_are_one_text_for_all_scripts(capsys: pytest.CaptureFixture[str]) -> None:
@@ -138,7 +157,7 @@ def test_fix_applies_safe_edits_and_tells_what_is_left(likely: Path, capsys: pyt
     out, err = capsys.readouterr()
     assert likely.read_text(encoding="utf-8") == "WALK for 10\nWALK for 10 sec\n"
     assert out.startswith("error[MS016]")
-    assert err.startswith("1 fixed, 1 left (1 error); ")
+    assert err.startswith("1 fixed in likely.ms, 1 left (1 error); ")
 
 
 def test_unsafe_fixes_applies_all(likely: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -151,7 +170,7 @@ def test_diff_shows_the_edits_and_makes_none(likely: Path, capsys: pytest.Captur
     assert mlmg.main(["check", "--diff", "likely.ms", "right.ms"]) == 1
     out, err = capsys.readouterr()
     assert out == ("--- likely.ms\n+++ likely.ms\n@@ -1,2 +1,2 @@\n WALK for 10\n-WALK FOR 10 SEC\n+WALK for 10 sec\n")
-    assert err.startswith("1 would be fixed, 1 left (1 error); ")
+    assert err.startswith("1 would be fixed in likely.ms, 1 left (1 error); ")
     assert likely.read_text(encoding="utf-8") == LIKELY
 
 
@@ -219,3 +238,53 @@ def test_in_other_formats_what_was_fixed_is_told_too(likely: Path, capsys: pytes
     out, err = capsys.readouterr()
     assert out == "likely.ms:1:10: error[MS016]: `10` of what? The unit is missing\n"
     assert err.startswith("1 fixed, 1 left")
+
+
+# --- edits and the files that are used ---
+
+
+@pytest.fixture
+def users() -> list[str]:
+    """Return a script and the file that it uses, each with one safe edit."""
+    Path("more.ms").write_text("let STROLL = WALK & TALK FOR 2 SEC\nlet TALK_ON = TALK FOR 2 SEC\n", encoding="utf-8")
+    Path("user.ms").write_text('use "more.ms"\nTALK_ON\nTALK FOR 3 SEC\n', encoding="utf-8")
+    return ["user.ms", "more.ms"]
+
+
+def test_a_used_file_is_not_edited_unless_it_is_named(users: list[str], capsys: pytest.CaptureFixture[str]) -> None:
+    used = Path("more.ms").read_text(encoding="utf-8")
+    assert mlmg.main(["check", "--format", "full", "user.ms"]) == 1
+    assert "; --fix mends 1, to mend more.ms, name it too" in capsys.readouterr().err
+    assert mlmg.main(["check", "--fix", "user.ms"]) == 1
+    assert Path("more.ms").read_text(encoding="utf-8") == used
+    assert capsys.readouterr().err.startswith("1 fixed, 3 left (3 errors)")
+
+
+def test_edits_are_counted_by_file_and_what_is_left_is_what_is_left_at_the_end(
+    users: list[str], capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert mlmg.main(["check", *users]) == 1
+    assert "; --fix mends 3, --unsafe-fixes 4" in capsys.readouterr().err
+    assert mlmg.main(["check", "--fix", *users]) == 1
+    assert capsys.readouterr().err.startswith("3 fixed (1 in user.ms, 2 in more.ms), 1 left (1 error)")
+    assert mlmg.main(["check", "--unsafe-fixes", *users]) == 0
+    assert capsys.readouterr().err.startswith("1 fixed in more.ms, nothing left")
+
+
+def test_the_demo_library_has_a_name(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], demo_library: Library
+) -> None:
+    monkeypatch.setenv("MLMG_CACHE", str(demo_library.path.parent))
+    Path("misspelt.ms").write_text("WLAK for 2 sec\n", encoding="utf-8")
+    assert mlmg.main(["check", "--library", "demo", "--format", "concise", "misspelt.ms"]) == 1
+    assert "misspelt.ms:1:1: error[MS021]" in capsys.readouterr().out
+
+
+def test_names_in_a_file_of_definitions_are_spelt_as_the_library_does(
+    monkeypatch: pytest.MonkeyPatch, demo_library: Library
+) -> None:
+    monkeypatch.setenv("MLMG_CACHE", str(demo_library.path.parent))
+    more = Path("more.ms")
+    more.write_text("let STROLL(x) = walk01 with upper_body x\n", encoding="utf-8")
+    assert mlmg.main(["check", "--library", "demo", "--fix", "more.ms"]) == 0
+    assert more.read_text(encoding="utf-8") == "let STROLL(x) = Walk_01 with Upper-Body x\n"

@@ -141,10 +141,9 @@ def test_a_file_that_is_not_utf_8_is_told_so_and_left_as_it_is(here: Path, capsy
     assert capsys.readouterr().err.startswith("a.ms:1:8: error[MS001]: this file is not UTF-8")
 
 
-def test_no_script_is_wrong_usage() -> None:
-    with pytest.raises(SystemExit) as left:
-        mlmg.main(["fmt"])
-    assert left.value.code == 2
+def test_without_a_script_it_is_said_what_to_write(capsys: pytest.CaptureFixture[str]) -> None:
+    assert mlmg.main(["fmt"]) == 2
+    assert "no script is named; `mlmg fmt stroll.ms` takes one" in capsys.readouterr().err
 
 
 # --- only looking ----------------------------------------------------------------------------------------

@@ -190,7 +190,6 @@ def test_what_is_wrong_in_a_used_file_is_told_there(reference: Any) -> None:
         ("MS055", "main.ms", 4),
         ("MS021", "a.ms", 3),
         ("MS014", "a.ms", 5),
-        ("MS054", "b.ms", 1),
         ("MS034", "b.ms", 2),
         ("MS045", "b.ms", 2),
     ]
