@@ -26,6 +26,7 @@ SUBCOMMANDS = {
     "fmt": "rewrite scripts in the one canonical form",
     "explain": "tell what a script will do and why, as a tree, JSON or a flowchart",
     "view": "look at a motion: a player in the browser, a picture, a GIF",
+    "completion": "write what completes commands, options and files in a shell",
 }
 
 _DESCRIPTION = """\
@@ -57,7 +58,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         prog="mlmg",
         usage="mlmg COMMAND ...",
         formatter_class=argparse.RawDescriptionHelpFormatter,
-        description=_DESCRIPTION.format(commands="\n".join(f"  {n:<7} {text}" for n, text in SUBCOMMANDS.items())),
+        description=_DESCRIPTION.format(commands="\n".join(f"  {n:<10} {text}" for n, text in SUBCOMMANDS.items())),
     )
     parser.add_argument("--version", action=VersionAction, nargs=0, help="show the version and leave")
     parser.add_argument("command", nargs="?", help=argparse.SUPPRESS)

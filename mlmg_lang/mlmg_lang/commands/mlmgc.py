@@ -54,11 +54,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Run `mlmgc` and return its exit code."""
     utf8_streams()
     one_thread_a_product()
-    parsed = _parser().parse_args(arguments)
+    parsed = argument_parser().parse_args(arguments)
     return run_command("mlmgc", lambda: _run(parsed))
 
 
-def _parser() -> argparse.ArgumentParser:
+def argument_parser() -> argparse.ArgumentParser:
+    """Return what reads the command's arguments."""
     from mlmg_lang.commands.version import VersionAction
 
     parser = argparse.ArgumentParser(
