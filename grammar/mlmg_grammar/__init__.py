@@ -16,17 +16,35 @@ _STARTS = (LINE, "unparsed")
 
 def grammar_text() -> str:
     """Return the grammar, in the notation of lark."""
-    data = get_data(__name__, "motion_script.lark")
-    assert data is not None, "the grammar is part of this package"
+    return _kept("motion_script.lark")
+
+
+def _kept(name: str) -> str:
+    data = get_data(__name__, name)
+    assert data is not None, f"{name} is part of this package"
     return data.decode("utf-8")
 
 
-def load(transformer: Transformer[Token, Any] | None = None, starts: Sequence[str] = _STARTS) -> Lark:
-    """Return an LALR(1) parser of the grammar, and its lexer.
+def load(transformer: Transformer[Token, Any] | None = None) -> Lark:
+    """Return an LALR(1) parser of the grammar for `LINE`, and its lexer.
+
+    Its tables are those that are kept beside the grammar, as long as they are of this grammar and this lark.
 
     Parameters
     ----------
     transformer : what makes a node of each rule when it is reduced; without one, lark's own trees are made.
+    """
+    from mlmg_grammar.tables import FILE, language_from_tables
+
+    language = language_from_tables(_kept(FILE), grammar_text(), transformer)
+    return language or make(transformer)
+
+
+def make(transformer: Transformer[Token, Any] | None = None, starts: Sequence[str] = _STARTS) -> Lark:
+    """Return the same, made afresh.
+
+    Parameters
+    ----------
     starts : the rules from which a text may be parsed; `unparsed` keeps the terminals no other rule uses.
     """
     from lark import Lark

@@ -6,7 +6,7 @@ import re
 
 import pytest
 
-from mlmg_grammar import grammar_text, load
+from mlmg_grammar import grammar_text, make
 from mlmg_grammar.definitions import definitions, sections
 from mlmg_grammar.expressions import Choice, Expression, Optional, Pattern, Repeat, Sequence, Symbol, Text, walk
 from mlmg_lang.parsing.tokens import CONTINUES, OPENS_STATEMENT
@@ -46,7 +46,7 @@ def test_a_section_has_its_title_its_comment_and_its_definitions() -> None:
 
 
 def test_every_rule_and_terminal_of_the_parser_is_found() -> None:
-    language = load(starts=("script", "line", "unparsed"))
+    language = make(starts=("script", "line", "unparsed"))
     made = {str(rule.origin.name) for rule in language.rules} | {terminal.name for terminal in language.terminals}
     helpers = {name for name in made if name.startswith("__")}
     parts = {"_NAME_START", "_NAME_PART", "_NAME_END"}

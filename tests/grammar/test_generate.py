@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 import mlmg_grammar
-from mlmg_grammar.generate import editor_files, main, write
+from mlmg_grammar.generate import main, package_files, write
 from mlmg_grammar.page import PICTURES, pages
 
 PACKAGE = Path(mlmg_grammar.__file__).parent
@@ -15,9 +15,9 @@ DOCS = Path(__file__).parents[2] / "docs"
 PAGES = pages(mlmg_grammar.grammar_text())
 
 
-@pytest.mark.parametrize("name", editor_files())
-def test_a_file_for_editors_is_made_from_the_grammar(name: str) -> None:
-    assert (PACKAGE / name).read_text(encoding="utf-8") == editor_files()[name], "run make grammars"
+@pytest.mark.parametrize("name", package_files())
+def test_a_file_of_the_package_is_made_from_the_grammar(name: str) -> None:
+    assert (PACKAGE / name).read_text(encoding="utf-8") == package_files()[name], "run make grammars"
 
 
 @pytest.mark.parametrize("name", PAGES)
@@ -38,7 +38,7 @@ def test_all_is_written_by_one_command(tmp_path: Path, monkeypatch: pytest.Monke
     written: dict[str, set[str]] = {}
     monkeypatch.setattr("mlmg_grammar.generate.write", lambda folder, files: written.update({folder.name: set(files)}))
     main(["--docs", str(tmp_path / "docs")])
-    assert written == {PACKAGE.name: set(editor_files()), "docs": set(PAGES)}
+    assert written == {PACKAGE.name: set(package_files()), "docs": set(PAGES)}
 
 
 def test_files_are_written_into_folders_that_are_made(tmp_path: Path) -> None:

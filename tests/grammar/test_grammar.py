@@ -7,14 +7,14 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from mlmg_grammar import LINE, SCRIPT, grammar_text, is_name, load, reserved_words, scan
+from mlmg_grammar import LINE, SCRIPT, grammar_text, is_name, make, reserved_words, scan
 from mlmg_lang.parsing.layout import Block, Line, lay_out
 from mlmg_lang.parsing.parse import parse
 from mlmg_lang.parsing.tokenize import tokenize
 from mlmg_lang.parsing.tokens import Token
 from mlmg_lang.source import Source, Span
 
-WHOLE = load(starts=(SCRIPT, LINE, "unparsed"))
+WHOLE = make(starts=(SCRIPT, LINE, "unparsed"))
 RESERVED = ["with", "and", "or", "not", "for", "once", "wait", "let", "repeat", "end", "choose", "use", "to"]
 WORDS = ["WALK", "Upper-Body", "TALK", *RESERVED, "sec", "min", "3", "2.5"]
 SIGNS = ["(", ")", "{", "}", "|", ";", ":", ",", "=", "\n", "\n", '"a b"', "# c\n"]

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mlmg_grammar import SCRIPT, grammar_text, load
+from mlmg_grammar import SCRIPT, grammar_text, make
 from mlmg_grammar.definitions import Definition, definitions
 from mlmg_grammar.ebnf import ebnf
 from mlmg_grammar.expressions import Choice, Expression, Optional, Repeat, Sequence, Symbol, Text, walk
@@ -17,7 +17,7 @@ from mlmg_grammar.readable import HIDDEN, INLINED, readable
 
 RULES = {one.name: one.expression for section in readable(grammar_text()) for one in section.definitions}
 FIXED = {one.text: name for name, one in definitions(grammar_text()).items() if isinstance(one, Text)}
-LANGUAGE = load(starts=(SCRIPT, "line", "unparsed"))
+LANGUAGE = make(starts=(SCRIPT, "line", "unparsed"))
 COMMAND = [
     "NAME",
     "NAME LEFT NAME RIGHT",

@@ -16,8 +16,9 @@ from mlmg_lang.diagnostics import CODES, Diagnostic, Severity
 from mlmg_lang.execution import executed
 from mlmg_lang.front_end import Analysis, analyse
 from mlmg_lang.parsing.layout import MAX_DEPTH
-from mlmg_lang.parsing.parse import MAX_MISTAKES
+from mlmg_lang.parsing.parse import MAX_MISTAKES, MAX_STATEMENT
 from mlmg_lang.parsing.structure import LONGEST_S, MAX_EXECUTED
+from mlmg_lang.parsing.tokenize import MAX_TOKENS
 from mlmg_lang.perform import perform
 from mlmg_lang.planning.resolved import Choose, Command, Cycles, End, Once, Repeat, Seconds, Statement, Wait
 from mlmg_lang.source import Source
@@ -170,7 +171,7 @@ def test_every_code_of_names_types_playing_and_definitions_stands_in_the_page_on
 
 def test_every_code_is_shown_by_an_example() -> None:
     shown_codes = set(re.findall(r"\[(MS\d+)\]", "".join(one.result or "" for one in EXAMPLES)))
-    of_files_and_limits = {"MS001", "MS005", "MS006", "MS059"}
+    of_files_and_limits = {"MS001", "MS005", "MS006", "MS007", "MS059"}
     of_options = {"MS044"}
     of_letters_and_signs = {"MS002", "MS003", "MS004", "MS010", "MS012", "MS013", "MS014", "MS018", "MS019"}
     assert set(CODES) - shown_codes == of_files_and_limits | of_options | of_letters_and_signs
@@ -179,7 +180,7 @@ def test_every_code_is_shown_by_an_example() -> None:
 def test_the_limits_are_those_of_the_compiler() -> None:
     text = (DOCS / "language.md").read_text(encoding="utf-8").partition("## Limits")[2]
     numbers = [int(number.replace(",", "")) for number in re.findall(r"\| ([\d,]+) \| MS", text)]
-    assert numbers == [MAX_DEPTH, MAX_MISTAKES, MAX_EXECUTED, MAX_NODES, MAX_FILES]
+    assert numbers == [MAX_DEPTH, MAX_MISTAKES, MAX_STATEMENT, MAX_TOKENS, MAX_EXECUTED, MAX_NODES, MAX_FILES]
     assert LONGEST_S == 24 * 3600
 
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from mlmg_lang.formatting.printing import Printer
 from mlmg_lang.parsing.layout import lay_out
-from mlmg_lang.parsing.tokenize import tokenize
+from mlmg_lang.parsing.tokenize import MAX_TOKENS, tokenize
 from mlmg_lang.source import Source
 
 
@@ -26,7 +26,7 @@ class Formatted:
 def format_source(source: Source) -> str:
     """Return a script in canonical form: the same statements and comments, written as docs/formatting.md says.
 
-    What cannot be read is kept as written, but for line ends.
+    What cannot be read is kept as written, but for line ends; so is all of a script that is too long to be read.
     """
     return format_script(source).text
 
@@ -34,5 +34,7 @@ def format_source(source: Source) -> str:
 def format_script(source: Source) -> Formatted:
     """Return the same, and whether all of it could be read."""
     tokens = tokenize(source)
+    if len(tokens) == MAX_TOKENS:
+        return Formatted(source.text, False)
     printer = Printer(source, tokens, lay_out(tokens))
     return Formatted(printer.script(), not printer.kept)

@@ -11,6 +11,7 @@ from mlmg_lang.parsing import syntax
 from mlmg_lang.parsing.layout import MAX_DEPTH, Block, Line, lay_out
 from mlmg_lang.parsing.lexical import check_tokens, join_quoted
 from mlmg_lang.parsing.line_parser import Stuck, read
+from mlmg_lang.parsing.tokenize import MAX_TOKENS
 from mlmg_lang.parsing.tokens import Token
 from mlmg_lang.source import Source, Span
 
@@ -21,6 +22,8 @@ MAX_MISTAKES = 200
 """After so many a text is no script; reading what is left would take long and help nobody."""
 _MAX_MENDED = 2_000
 """The longest line, in tokens, whose mistakes are looked into."""
+MAX_STATEMENT = 10_000
+"""The longest line, in tokens, that is read."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,6 +45,8 @@ def parse(source: Source, tokens: Sequence[Token], base: int = 0) -> Parsed:
     layout = lay_out(tokens)
     reader = _Reader(source)
     reader.diagnostics += [*check_tokens(tokens), *layout.diagnostics][:MAX_MISTAKES]
+    if len(tokens) == MAX_TOKENS:
+        reader.cut_off(tokens[-1])
     items = reader.items(layout.items)
     span = Span(base, base + len(source.file(base)[0].text))
     return Parsed(syntax.Script(items, span), tuple(reader.diagnostics))
@@ -53,6 +58,11 @@ class _Reader:
     def __init__(self, source: Source) -> None:
         self.diagnostics: list[Diagnostic] = []
         self._source = source
+
+    def cut_off(self, last: Token) -> None:
+        """Say that there is more text than is read."""
+        message = f"a script may have at most {MAX_TOKENS:,} words and signs; what comes after this is not read"
+        self._say("MS007", message, last.span, "leave some of it to another script")
 
     def items(self, pieces: Iterable[Line | Block]) -> tuple[syntax.Item, ...]:
         """Return the items of a body."""
@@ -121,6 +131,10 @@ class _Reader:
         if deep is not None:
             message = f"parentheses and `not` are nested more than {MAX_DEPTH} deep here"
             self._say("MS005", message, deep.span, "take out those that say nothing")
+            return syntax.Broken(span)
+        if len(tokens) > MAX_STATEMENT:
+            message = f"a statement may have at most {MAX_STATEMENT:,} words and signs"
+            self._say("MS007", message, tokens[MAX_STATEMENT].span, "say it in several statements")
             return syntax.Broken(span)
         return self._mended(tuple(_as_names(tokens))) or syntax.Broken(span)
 

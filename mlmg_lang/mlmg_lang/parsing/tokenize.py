@@ -2,22 +2,28 @@
 
 from __future__ import annotations
 
+from itertools import islice
+
 from mlmg_grammar import scan
 from mlmg_lang.parsing.build_syntax import motion_script
 from mlmg_lang.parsing.tokens import Token
 from mlmg_lang.source import Source, Span
 
+MAX_TOKENS = 1_000_000
+"""The most tokens of a text that are read: those of some 100,000 lines, more than may be played."""
+
 
 def tokenize(source: Source, base: int = 0) -> tuple[Token, ...]:
-    """Return the tokens of a text in order, comments and line ends too. This never fails.
+    """Return the first `MAX_TOKENS` of a text in order, comments and line ends too. This never fails.
 
     Parameters
     ----------
     base : where the file begins whose tokens are wanted: the script itself, or one that it uses.
     """
     text = source.file(base)[0].text
-    return tuple(
+    found = (
         Token(piece.type, str(piece), Span(base + piece.start_pos, base + piece.start_pos + len(piece)))
         for piece in scan(motion_script(), text)
         if piece.type != "SPACE" and piece.start_pos is not None
     )
+    return tuple(islice(found, MAX_TOKENS))

@@ -48,6 +48,13 @@ def test_a_wrong_script_is_told_the_same_when_it_is_formatted(
     assert [one.code for one in after] == [one.code for one in before]
 
 
+def test_a_script_that_is_too_long_to_be_read_stays_as_it_is(monkeypatch: pytest.MonkeyPatch) -> None:
+    for module in ("parsing.tokenize", "formatting.format_script"):
+        monkeypatch.setattr(f"mlmg_lang.{module}.MAX_TOKENS", 4)
+    kept = format_script(Source("A\n  B\n   C"))
+    assert (kept.text, kept.whole) == ("A\n  B\n   C", False)
+
+
 @settings(max_examples=150)
 @given(data=st.data())
 def test_a_valid_script_keeps_its_meaning_and_comments(

@@ -180,6 +180,20 @@ def test_parentheses_side_by_side_are_not_nested() -> None:
     only(" with ".join("not (not A)" for _ in range(MAX_DEPTH)))
 
 
+def test_a_statement_that_nobody_could_have_written_is_not_read() -> None:
+    found = parsed(f"A\n{'A or ' * 5_000}A\nB")
+    assert [one.code for one in found.diagnostics] == ["MS007"]
+    assert [type(item) for item in found.script.items] == [syntax.Command, syntax.Broken, syntax.Command]
+
+
+def test_of_a_text_without_end_the_beginning_is_read(monkeypatch: pytest.MonkeyPatch) -> None:
+    for module in ("tokenize", "parse"):
+        monkeypatch.setattr(f"mlmg_lang.parsing.{module}.MAX_TOKENS", 4)
+    found = parsed("A\nB\nC\nD\n")
+    assert [one.code for one in found.diagnostics] == ["MS007"]
+    assert len(found.script.items) == 2
+
+
 def test_endless_mistakes_end_in_one_that_says_so() -> None:
     diagnostics = parsed("A for\n" * 1000).diagnostics
     assert [one.code for one in diagnostics[-2:]] == ["MS017", "MS006"]
