@@ -72,6 +72,15 @@ def test_the_ending_says_what_is_written(folder, capsys):
     assert capsys.readouterr().out == ""
 
 
+@pytest.mark.parametrize("frame_time_s", ["1e-300", "1e308"])
+@pytest.mark.parametrize("ending", [".html", ".png", ".gif"])
+def test_a_frame_time_that_nobody_means_is_one_line(folder, capsys, frame_time_s, ending):
+    text = (folder / "stroll.bvh").read_text()
+    (folder / "odd.bvh").write_text(re.sub("Frame Time: .*", f"Frame Time: {frame_time_s}", text))
+    assert view("odd.bvh", "-o", f"x{ending}") == 1
+    assert "odd.bvh: expected a frame time from 1e-05 to 1000 s, found 1e" in capsys.readouterr().err
+
+
 def test_a_name_that_is_no_text_is_shown_with_question_marks(folder):
     (folder / "str\udcff.bvh").write_bytes((folder / "stroll.bvh").read_bytes())
     assert view("str\udcff.bvh", "-o", "x.html") == 0

@@ -38,6 +38,9 @@ _ENDINGS = (".html", ".png", ".gif")
 _STANDARD_INPUT, _PIPED = "-", "standard input"
 
 _MOST_LETTERS = 12
+# What nobody means as a frame time; the camera, which moves smoothly in time, would not get through it either.
+_SHORTEST_FRAME_S = 1e-5
+_LONGEST_FRAME_S = 1e3
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -177,9 +180,12 @@ def _read(path: str) -> Bvh:
     from mlmg_runtime.errors import BvhError
 
     bvh = read_bytes(sys.stdin.buffer.read(), _PIPED) if path == _STANDARD_INPUT else read(path)
+    name = _PIPED if path == _STANDARD_INPUT else path
     if not len(bvh.frames):
-        name = _PIPED if path == _STANDARD_INPUT else path
         raise BvhError(name, None, "expected a motion of at least one frame, found none")
+    if not _SHORTEST_FRAME_S <= bvh.frame_time_s <= _LONGEST_FRAME_S:
+        times = f"from {_SHORTEST_FRAME_S:g} to {_LONGEST_FRAME_S:g} s"
+        raise BvhError(name, None, f"expected a frame time {times}, found {bvh.frame_time_s:g}")
     return bvh
 
 
