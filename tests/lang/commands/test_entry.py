@@ -1,6 +1,7 @@
 """How the commands begin: what Ctrl-C does before they have begun, and standard streams that are closed."""
 
 import ast
+import shutil
 import subprocess
 import sys
 import tomllib
@@ -73,3 +74,36 @@ def test_a_standard_stream_that_is_closed_is_as_if_empty(
     )
     assert ended.returncode == code
     assert b"Traceback" not in ended.stderr
+
+
+_ENDED_WHILE_WRITING = """
+import os, signal, sys
+from mlmg_lang.commands import entry, mlmgc
+from mlmg_runtime.files import atomic_output
+
+def main():
+    with atomic_output("out.bvh") as beside:
+        beside.write_text("half")
+        os.kill(os.getpid(), signal.{name})
+        print("written")
+
+mlmgc.main = main
+sys.exit(entry.mlmgc())
+"""
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows ends processes without telling them")
+@pytest.mark.parametrize(("name", "code"), [("SIGTERM", 143), ("SIGHUP", 129), ("SIGINT", 130)])
+def test_a_command_that_is_ended_while_it_writes_leaves_nothing(name: str, code: int, tmp_path: Path) -> None:
+    command = [sys.executable, "-c", _ENDED_WHILE_WRITING.format(name=name)]
+    ended = subprocess.run(command, capture_output=True, cwd=tmp_path, check=False)
+    assert (ended.returncode, ended.stdout) == (code, b"")
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.skipif(shutil.which("nohup") is None, reason="no nohup here")
+def test_a_command_under_nohup_outlives_its_terminal(tmp_path: Path) -> None:
+    command = ["nohup", sys.executable, "-c", _ENDED_WHILE_WRITING.format(name="SIGHUP")]
+    ended = subprocess.run(command, capture_output=True, cwd=tmp_path, check=False)
+    assert b"written" in ended.stdout
+    assert (tmp_path / "out.bvh").read_text() == "half"
