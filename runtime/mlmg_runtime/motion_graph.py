@@ -28,6 +28,9 @@ TRANSITION = np.dtype(
     ]
 )
 UNREACHABLE = -1
+# Windows up to five times as far apart as smooth ones (root mean square) make a blend that is seen, but no stumble: so
+# many times sigma, at most.
+USUAL_BRIDGE = 25.0
 
 
 class Position(NamedTuple):

@@ -11,6 +11,8 @@ import mlmg_lang
 from mlmg_lang.perform import Executed, perform, rehearse
 from mlmg_runtime.library import Library
 
+ENDS = ("from", "to")
+
 
 def report_of(script: str, library: Library) -> dict[str, Any]:
     plan, diagnostics = mlmg_lang.compile(script, library)
@@ -235,6 +237,21 @@ def test_once_shows_a_motion_from_where_it_can_be_entered_to_where_it_is_left(
     assert leaves["kind"] == "transition"
     assert leaves["from"] == [motion, exits[-1]]
     assert once["end"] - once["arrive"] == exits[-1] - graph.window
+
+
+@pytest.mark.parametrize("motion", ["Walk_01", "Walk_02", "Walk_03", "Idle_02", "Music_01", "Talk_01", "Talk_02"])
+@pytest.mark.parametrize("then", ["{} for 6 sec", "wait 6 sec"])
+def test_after_once_the_same_motion_goes_on_without_another_between(
+    then: str, motion: str, demo_library: Library
+) -> None:
+    report = report_of(f"{motion} once\n{then.format(motion)}", demo_library)
+    (once, *_), track = report["commands"], report["tracks"]["Full-Body"]
+    played = {
+        name for entry in track for name in (entry.get("motion"), *(entry[end][0] for end in ENDS if end in entry))
+    }
+    assert played - {None} == {motion}
+    (left,) = (entry for entry in track if entry["begin"] == once["end"])
+    assert left["from"] == [motion, demo_library.root.first_exit[demo_library.root.index[motion]][-1]]
 
 
 def test_once_twice_is_shown_twice(demo_library: Library) -> None:

@@ -11,9 +11,9 @@ import numpy as np
 
 from mlmg_runtime.arrays import FloatArray, IntArray
 from mlmg_runtime.errors import PlayError
-from mlmg_runtime.library import Library
 from mlmg_runtime.motion_graph import MotionGraph, Position
 from mlmg_runtime.playing.holding import stay
+from mlmg_runtime.playing.likeness import Likeness
 from mlmg_runtime.playing.timeline import Clip, Segment
 
 
@@ -52,12 +52,12 @@ class Stay:
         return self.segments[-1].end if self.segments else 0
 
 
-def staying(library: Library, graph: MotionGraph, home: int, position: Position, allowed: Collection[int]) -> Stay:
+def staying(likeness: Likeness, graph: MotionGraph, home: int, position: Position, allowed: Collection[int]) -> Stay:
     """Return what a graph plays to stay in the motion `home`, up to where that comes round."""
     seen: dict[Position, int] = {}
     segments: list[Segment] = []
     with suppress(PlayError):
-        for segment in stay(library, graph, home, position, 0, allowed):
+        for segment in stay(likeness, graph, home, position, 0, allowed):
             at = begins_at(segment)
             if at in seen:
                 return Stay(tuple(segments), seen[at])

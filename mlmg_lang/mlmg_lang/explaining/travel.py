@@ -19,6 +19,7 @@ from mlmg_runtime.arrays import BoolArray, FloatArray, IntArray
 from mlmg_runtime.library import Library
 from mlmg_runtime.motion_graph import MotionGraph, Position
 from mlmg_runtime.playing.holding import latest_loop, stay
+from mlmg_runtime.playing.likeness import Likeness
 from mlmg_runtime.playing.performer import LONGEST_RETURN_S
 from mlmg_runtime.playing.returning import find_return
 from mlmg_runtime.playing.timeline import Blend, Clip
@@ -33,12 +34,17 @@ class MotionTravel:
     """Ways in the motion graphs of a library; see `planning.estimate.Travel`. What has been worked out is kept."""
 
     library: Library
+    _likeness: Likeness = field(init=False)
     _exits: dict[str, Exits] = field(default_factory=dict)
     _into: dict[tuple[str, str, bool], Into] = field(default_factory=dict)
     _stays: dict[tuple[str, str, int, Position], Stay] = field(default_factory=dict)
     _known: dict[tuple[str, Playing], Places] = field(default_factory=dict)
     _trips: dict[tuple[object, ...], tuple[Trip, ...]] = field(default_factory=dict)
     _backs: dict[tuple[object, ...], Trip] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        """Know nothing yet."""
+        self._likeness = Likeness(self.library)
 
     def soonest(
         self, graph: str, playing: Playing, candidates: tuple[str, ...], driver: str, to_begin: bool = False
@@ -217,7 +223,7 @@ class MotionTravel:
         key = (own.name, "" if below is None else below.name, home, position)
         if key not in self._stays:
             allowed = {at for at, name in enumerate(own.motions) if below is None or name in below.index}
-            self._stays[key] = staying(self.library, own, home, position, allowed)
+            self._stays[key] = staying(self._likeness, own, home, position, allowed)
         return self._stays[key]
 
     # --- ways back ---
@@ -243,7 +249,7 @@ class MotionTravel:
         """Return what a graph plays for a while, as far as it is on a graph below, in the indices of that."""
         allowed = {at for at, motion in enumerate(over.motions) if motion in own.index}
         clips = []
-        for segment in stay(self.library, over, home, position, 0, allowed):
+        for segment in stay(self._likeness, over, home, position, 0, allowed):
             if segment.begin > deadline:
                 break
             clip = segment if isinstance(segment, Clip) else Clip(segment.begin, segment.begin, segment.source, 0)

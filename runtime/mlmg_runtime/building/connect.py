@@ -8,9 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from mlmg_runtime.arrays import BoolArray, FloatArray, IntArray
-
-# Windows up to five times as far apart as smooth ones (root mean square) make a bridge that is seen, but no stumble.
-USUAL_BRIDGE = 25.0
+from mlmg_runtime.motion_graph import USUAL_BRIDGE
 
 
 class Edges(NamedTuple):

@@ -2,24 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator
-
-import numpy as np
+from collections.abc import Collection, Iterator, Sequence
 
 from mlmg_runtime.errors import PlayError
-from mlmg_runtime.library import Library
-from mlmg_runtime.motion_graph import MotionGraph, Position, Transition
+from mlmg_runtime.motion_graph import USUAL_BRIDGE, MotionGraph, Position, Transition
+from mlmg_runtime.playing.likeness import Alike, Likeness
 from mlmg_runtime.playing.search import find_path
 from mlmg_runtime.playing.timeline import Blend, Segment, play_along, play_clip
 
 
 def stay(
-    library: Library, graph: MotionGraph, home: int, position: Position, time: int, allowed: Collection[int]
+    likeness: Likeness, graph: MotionGraph, home: int, position: Position, time: int, allowed: Collection[int]
 ) -> Iterator[Segment]:
     """Yield, without end, what `graph` plays from `time` on to stay in the motion `home`.
 
-    The motion is left as late as its own backward transitions allow. Past the last of them, or where it has none, the
-    shortest way round that comes back to it is taken; where there is no such way either, a blend is made on the spot.
+    The motion is left as late as its own backward transitions allow. Where it has none, the shortest way round that
+    comes back to it is taken. Past the last of them it is blended back on the spot to before that, between the two most
+    alike windows up to where the way round would leave it; the way round is taken if these are farther apart than it
+    is, and than bridges usually are. Where there is no way round, a blend is made on the spot.
 
     Parameters
     ----------
@@ -34,13 +34,9 @@ def stay(
     loop = latest_loop(graph, home)
     while True:
         if loop is not None and position.motion == home and position.frame <= loop.src_frame:
-            way: tuple[Transition, ...] = (loop,)
+            segments: Sequence[Segment] = play_along((loop,), graph.window, position, time)
         else:
-            path = find_path(graph, position, [home], allowed)
-            way = () if path is None else path.transitions
-        segments = (
-            play_along(way, graph.window, position, time) if way else _on_the_spot(library, graph, home, position, time)
-        )
+            segments = _come_back(likeness, graph, home, position, time, allowed)
         for segment in segments:
             yield segment
             assert segment.after is not None
@@ -56,35 +52,39 @@ def latest_loop(graph: MotionGraph, motion: int) -> Transition | None:
     return max(backward, key=lambda edge: (edge.src_frame, -edge.cost), default=None)
 
 
-def _on_the_spot(library: Library, graph: MotionGraph, home: int, position: Position, time: int) -> list[Segment]:
-    """Return the clip up to where a later window is most like an earlier one, and a blend from the one to the other."""
+def _come_back(
+    likeness: Likeness, graph: MotionGraph, home: int, position: Position, time: int, allowed: Collection[int]
+) -> Sequence[Segment]:
+    """Return what leads back into the motion from where no backward transition of its own leads."""
+    path = find_path(graph, position, [home], allowed)
+    way = () if path is None else path.transitions
+    alike = _most_alike(likeness, graph, home, position, way)
+    if alike is not None:
+        begin, target = time + alike.leave - position.frame, Position(home, alike.enter + graph.window - 1)
+        blend = Blend(begin, begin + graph.window, Position(home, alike.leave), target)
+        return [*play_clip(time, position, alike.leave - position.frame), blend]
+    if way:
+        return play_along(way, graph.window, position, time)
     name = graph.motions[home]
     if position.motion != home:
         raise PlayError(f"no way leads back to {name} on {graph.name} from {graph.motions[position.motion]}")
-    pair = _most_alike(library, graph, name, position.frame)
-    if pair is None:
-        raise PlayError(
-            f"{name} cannot go on after frame {position.frame} on {graph.name}: no transition leaves it there, and the "
-            f"clip is too short to be led back into itself; allow more transitions, or give it a longer clip"
-        )
-    leave, enter = pair
-    begin = time + leave - position.frame
-    target = Position(home, enter + graph.window - 1)
-    blend = Blend(begin, begin + graph.window, Position(home, leave), target)
-    return [*play_clip(time, position, leave - position.frame), blend]
+    raise PlayError(
+        f"{name} cannot go on after frame {position.frame} on {graph.name}: no transition leaves it there, and the "
+        f"clip is too short to be led back into itself; allow more transitions, or give it a longer clip"
+    )
 
 
-def _most_alike(library: Library, graph: MotionGraph, motion: str, from_frame: int) -> tuple[int, int] | None:
-    """Return the first frames of a motion's two most alike windows: one from `from_frame` on, one wholly before it."""
-    from mlmg_runtime.point_cloud import point_cloud, window_distances
-    from mlmg_runtime.skeleton import world_positions
-
-    points = world_positions(library.skeleton, library.poses(motion))[:, list(graph.joints)]
-    cloud = point_cloud(points, graph.weights, graph.window)
-    if cloud.n_windows - graph.window <= 0 or from_frame >= cloud.n_windows:
+def _most_alike(
+    likeness: Likeness, graph: MotionGraph, home: int, position: Position, way: Sequence[Transition]
+) -> Alike | None:
+    """Return the windows between which a blend leads back into the motion; None if it is better to go a way round."""
+    name, loop = graph.motions[home], latest_loop(graph, home)
+    if position.motion != home:
         return None
-    distances = window_distances(cloud, cloud)
-    late, early = np.ogrid[: distances.shape[0], : distances.shape[1]]
-    distances = np.where((late >= from_frame) & (early <= late - graph.window), distances, np.inf)
-    leave, enter = np.unravel_index(int(distances.argmin()), distances.shape)
-    return int(leave), int(enter)
+    if not way:
+        return likeness.most_alike(graph, name, position.frame)
+    if loop is None:
+        return None
+    alike = likeness.most_alike(graph, name, position.frame, way[0].src_frame, before=loop.src_frame)
+    bearable = max(USUAL_BRIDGE * graph.sigma, *(edge.distance for edge in way))
+    return alike if alike is not None and alike.distance <= bearable else None

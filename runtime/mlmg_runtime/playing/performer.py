@@ -14,6 +14,7 @@ from mlmg_runtime.errors import PlayError
 from mlmg_runtime.library import Library
 from mlmg_runtime.motion_graph import UNREACHABLE, MotionGraph, Position, Transition
 from mlmg_runtime.playing.holding import stay
+from mlmg_runtime.playing.likeness import Likeness
 from mlmg_runtime.playing.releasing import release
 from mlmg_runtime.playing.returning import find_return
 from mlmg_runtime.playing.search import Path, find_path, find_paths
@@ -76,9 +77,11 @@ class Performer:
     now: int = 0
     _running: dict[str, _Track] = field(default_factory=dict)
     _ended: dict[str, tuple[Segment, ...]] = field(default_factory=dict)
+    _likeness: Likeness = field(init=False)
 
     def __post_init__(self) -> None:
         """Put the whole body into the start motion."""
+        self._likeness = Likeness(self.library)
         root = self.library.root
         home = root.index[self.start]
         self._running[root.name] = _Track(root, home, Position(home, 0), 0)
@@ -370,7 +373,7 @@ class Performer:
     def _stay(self, track: _Track, joining: Collection[str] = ()) -> Iterator[Segment]:
         """Yield what a track will play; `joining` are parts that are about to run below it."""
         allowed = self._allowed(track.graph.name, joining)
-        return stay(self.library, track.graph, track.home, track.position, track.time, allowed)
+        return stay(self._likeness, track.graph, track.home, track.position, track.time, allowed)
 
     def _clips_above(
         self, graph: MotionGraph, track: _Track, joining: Collection[str] = (), deadline: int | None = None

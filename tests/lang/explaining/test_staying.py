@@ -11,6 +11,7 @@ from mlmg_lang.explaining.staying import after, places_of, staying
 from mlmg_runtime.library import Library
 from mlmg_runtime.motion_graph import MotionGraph, Position
 from mlmg_runtime.playing.holding import latest_loop, stay
+from mlmg_runtime.playing.likeness import Likeness
 from mlmg_runtime.playing.timeline import Clip
 
 
@@ -30,7 +31,7 @@ def shown(library: Library, graph: MotionGraph, home: int, position: Position, n
 @pytest.mark.parametrize("frame", [0, 12, 90])
 def test_after_some_frames_a_graph_is_where_staying_leads(made_library, frame, n_frames):
     graph, position = made_library.root, Position(made_library.root.index["Idle_01"], frame)
-    stays = staying(made_library, graph, position.motion, position, range(len(graph.motions)))
+    stays = staying(Likeness(made_library), graph, position.motion, position, range(len(graph.motions)))
     expected = shown(made_library, graph, position.motion, position, n_frames)
     assert after(stays, position, n_frames) == [expected]
 
@@ -41,7 +42,7 @@ def test_so_it_is_where_a_motion_has_no_loop_and_is_held_by_ways_round(made_libr
     home = graph.index["Talk_01"]
     assert latest_loop(graph, home) is None
     position = Position(home, 10)
-    stays = staying(made_library, graph, home, position, range(len(graph.motions)))
+    stays = staying(Likeness(made_library), graph, home, position, range(len(graph.motions)))
     found = [after(stays, position, n_frames)[0] for n_frames in range(0, 900, 17)]
     assert found == [shown(made_library, graph, home, position, n_frames) for n_frames in range(0, 900, 17)]
     assert len({place.motion for place, _ in found}) > 1
@@ -50,7 +51,7 @@ def test_so_it_is_where_a_motion_has_no_loop_and_is_held_by_ways_round(made_libr
 def test_after_any_time_it_may_be_wherever_it_comes_again_and_again(made_library):
     graph = made_library.root
     home = graph.index["Walk_01"]
-    stays = staying(made_library, graph, home, Position(home, 5), range(len(graph.motions)))
+    stays = staying(Likeness(made_library), graph, home, Position(home, 5), range(len(graph.motions)))
     found = after(stays, Position(home, 5), inf)
     loop = latest_loop(graph, home)
     period = loop.src_frame - loop.dst_frame - 1 + graph.window
@@ -67,7 +68,7 @@ def test_what_cannot_go_on_is_told_as_far_as_it_goes(demo_library):
     """Without transitions, and too near to the clip's end to be blended back into itself."""
     graph = replace(demo_library.root, transitions=demo_library.root.transitions[:0])
     position = Position(0, int(graph.n_frames[0]) - 3)
-    stays = staying(demo_library, graph, 0, position, ())
+    stays = staying(Likeness(demo_library), graph, 0, position, ())
     assert (stays.segments, after(stays, position, inf), after(stays, position, 9)) == (
         (),
         [(position, 0)],

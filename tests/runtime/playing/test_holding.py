@@ -7,11 +7,22 @@ import pytest
 
 from mlmg_runtime.errors import PlayError
 from mlmg_runtime.library import Library
-from mlmg_runtime.motion_graph import MotionGraph, Position
+from mlmg_runtime.motion_graph import MotionGraph, Position, Transition
 from mlmg_runtime.playing.holding import latest_loop, stay
+from mlmg_runtime.playing.likeness import Alike, Likeness
 from mlmg_runtime.playing.timeline import Blend, Clip, Segment
 from mlmg_runtime.point_cloud import point_cloud, window_distances
 from mlmg_runtime.skeleton import Poses, world_positions
+
+
+class NothingAlike:
+    """What knows of no two windows of a motion that are alike."""
+
+    def most_alike(self, *asked: object, **also: object) -> None:
+        return None
+
+
+NOTHING_ALIKE = NothingAlike()
 
 
 def played(segments: Iterator[Segment], until: int) -> list[Segment]:
@@ -38,7 +49,7 @@ def test_the_latest_loop_is_the_backward_transition_that_leaves_latest_the_smoot
 
 def test_a_motion_is_held_by_its_latest_loop(motion_graph) -> None:
     graph = motion_graph([40, 20], 3, [(0, 20, 0, 9), (0, 30, 0, 12), (0, 15, 1, 9), (1, 12, 0, 5)])
-    segments = played(stay(None, graph, 0, Position(0, 2), 100, {0, 1}), 300)
+    segments = played(stay(NOTHING_ALIKE, graph, 0, Position(0, 2), 100, {0, 1}), 300)
     assert segments[:4] == [
         Clip(100, 128, Position(0, 2), 28),
         Blend(128, 131, Position(0, 30), Position(0, 12), latest_loop(graph, 0)),
@@ -51,27 +62,27 @@ def test_a_motion_is_held_by_its_latest_loop(motion_graph) -> None:
 @pytest.mark.parametrize(("start", "departs"), [((0, 29), (30, 12)), ((0, 30), (30, 12)), ((0, 31), (35, 9))])
 def test_the_loop_is_taken_up_to_the_very_frame_from_which_it_leaves(motion_graph, start, departs) -> None:
     graph = motion_graph([40, 20], 3, [(0, 30, 0, 12), (0, 30, 0, 36, 0.1), (0, 35, 1, 9), (1, 12, 0, 5)])
-    segments = played(stay(None, graph, 0, Position(*start), 0, {0, 1}), 20)
+    segments = played(stay(NOTHING_ALIKE, graph, 0, Position(*start), 0, {0, 1}), 20)
     assert departures(segments)[0] == departs
 
 
 def test_a_way_round_that_has_begun_is_gone_to_its_end(motion_graph) -> None:
     graph = motion_graph([40, 20], 3, [(0, 30, 0, 12), (1, 12, 0, 5)])
-    segments = played(stay(None, graph, 0, Position(1, 4), 0, {0, 1}), 60)
+    segments = played(stay(NOTHING_ALIKE, graph, 0, Position(1, 4), 0, {0, 1}), 60)
     assert departures(segments)[:2] == [(12, 5), (30, 12)]
 
 
 def test_past_its_loops_a_motion_is_held_by_the_shortest_way_round(motion_graph) -> None:
     marks = [(0, 20, 0, 9), (0, 35, 1, 9), (1, 12, 0, 5), (0, 32, 2, 9), (2, 18, 0, 3)]
     graph = motion_graph([40, 20, 30], 3, marks)
-    segments = played(stay(None, graph, 0, Position(0, 22), 0, {0, 1, 2}), 120)
+    segments = played(stay(NOTHING_ALIKE, graph, 0, Position(0, 22), 0, {0, 1, 2}), 120)
     assert departures(segments)[:4] == [(35, 9), (12, 5), (20, 9), (20, 9)]
 
 
 def test_a_way_round_passes_only_what_the_layers_below_allow(motion_graph) -> None:
     marks = [(0, 35, 1, 9), (1, 12, 0, 5), (0, 32, 2, 9), (2, 18, 0, 3)]
     graph = motion_graph([40, 20, 30], 3, marks)
-    segments = played(stay(None, graph, 0, Position(0, 22), 0, {0, 2}), 120)
+    segments = played(stay(NOTHING_ALIKE, graph, 0, Position(0, 22), 0, {0, 2}), 120)
     assert departures(segments)[:2] == [(32, 9), (18, 3)]
     assert {segment.first.motion for segment in segments if isinstance(segment, Clip)} == {0, 2}
 
@@ -83,20 +94,65 @@ def test_every_motion_of_a_library_can_be_held_from_wherever_it_is_entered(
     graph = small_library.by_name[name]
     everything = range(len(graph.motions))
     for home in everything:
-        loop = latest_loop(graph, home)
         starts = {edge.arrival for edge in graph.edges if edge.dst_motion == home} | {Position(home, 0)}
         for start in starts:
             position = start
-            for segment in played(stay(small_library, graph, home, start, 0, everything), 400):
+            for segment in played(stay(Likeness(small_library), graph, home, start, 0, everything), 400):
                 if isinstance(segment, Clip):
                     continue
-                assert segment.transition in graph.edges
-                if loop is not None and position.motion == home and position.frame <= loop.src_frame:
-                    assert segment.transition == loop
-                else:
-                    best = soonest(graph, position, [home], everything)
-                    assert segment.transition == best.transitions[0]
+                assert segment.transition == expected(small_library, graph, home, position, soonest, segment)
                 position = segment.after
+
+
+def expected(
+    library: Library, graph: MotionGraph, home: int, position: Position, soonest, played: Blend
+) -> Transition | None:
+    """Return the transition by which a motion is held; None for a blend on the spot, after a look at its windows."""
+    loop = latest_loop(graph, home)
+    if loop is not None and position.motion == home and position.frame <= loop.src_frame:
+        return loop
+    way = soonest(graph, position, [home], range(len(graph.motions))).transitions
+    if loop is None or position.motion != home:
+        return way[0]
+    points = world_positions(library.skeleton, library.poses(graph.motions[home]))[:, list(graph.joints)]
+    cloud = point_cloud(points, graph.weights, graph.window)
+    distances = window_distances(cloud, cloud)
+    pairs = [
+        (distances[late, early], late, early)
+        for late in range(position.frame, way[0].src_frame + 1)
+        for early in range(min(late, loop.src_frame) - graph.window + 1)
+    ]
+    distance, late, early = min(pairs, default=(np.inf, 0, 0))
+    if distance > max(25.0 * graph.sigma, *(edge.distance for edge in way)):
+        return way[0]
+    assert (played.source, played.target) == (Position(home, late), Position(home, early + graph.window - 1))
+    return None
+
+
+@pytest.mark.parametrize(("distance", "blended"), [(6.9, True), (25.0, True), (25.1, False)])
+def test_past_its_loops_a_motion_is_blended_back_if_that_is_hardly_seen(
+    motion_graph, distance: float, blended: bool
+) -> None:
+    graph = motion_graph([40, 20], 3, [(0, 20, 0, 9), (0, 35, 1, 9), (1, 12, 0, 5)])
+    asked = []
+
+    class OneAlike:
+        def most_alike(self, *args: object, **also: object) -> Alike:
+            asked.append((args[1:], also))
+            return Alike(distance, 30, 4)
+
+    segments = played(stay(OneAlike(), graph, 0, Position(0, 22), 0, {0, 1}), 60)
+    assert asked[0] == (("Motion_0", 22, 35), {"before": 20})
+    assert departures(segments)[:2] == ([(30, 6), (20, 9)] if blended else [(35, 9), (12, 5)])
+
+
+def test_a_motion_that_never_leads_into_itself_is_held_by_the_shortest_way_round(small_library: Library) -> None:
+    graph = small_library.root
+    home = graph.index["Reach"]
+    assert latest_loop(graph, home) is None
+    everything = range(len(graph.motions))
+    segments = played(stay(Likeness(small_library), graph, home, Position(home, 20), 0, everything), 300)
+    assert all(segment.transition is not None for segment in segments if isinstance(segment, Blend))
 
 
 def cornered(library: Library) -> tuple[MotionGraph, int, set[int]]:
@@ -108,7 +164,7 @@ def cornered(library: Library) -> tuple[MotionGraph, int, set[int]]:
 
 def test_where_nothing_leads_back_a_blend_is_made_between_the_two_most_alike_windows(small_library: Library) -> None:
     graph, home, allowed = cornered(small_library)
-    segments = played(stay(small_library, graph, home, Position(home, 10), 0, allowed), 300)
+    segments = played(stay(Likeness(small_library), graph, home, Position(home, 10), 0, allowed), 300)
     points = world_positions(small_library.skeleton, small_library.poses("Reach"))[:, list(graph.joints)]
     cloud = point_cloud(points, graph.weights, graph.window)
     distances = window_distances(cloud, cloud)
@@ -136,7 +192,9 @@ def shortened(library: Library, n_frames: int) -> Library:
 def test_a_clip_of_two_windows_is_led_back_from_the_second_to_the_first(small_library: Library, frame: int) -> None:
     graph, home, allowed = cornered(small_library)
     assert graph.window == 8
-    *_, blend = played(stay(shortened(small_library, 16), graph, home, Position(home, frame), 0, allowed), 9 - frame)
+    *_, blend = played(
+        stay(Likeness(shortened(small_library, 16)), graph, home, Position(home, frame), 0, allowed), 9 - frame
+    )
     assert (blend.begin, blend.source, blend.target) == (8 - frame, Position(home, 8), Position(home, 7))
 
 
@@ -145,12 +203,12 @@ def test_a_clip_of_two_windows_is_led_back_from_the_second_to_the_first(small_li
 def test_a_motion_that_cannot_go_on_is_told_by_name(small_library: Library, n_frames: int, frame: int) -> None:
     graph, home, allowed = cornered(small_library)
     with pytest.raises(PlayError, match=rf"^Reach cannot go on after frame {frame} on Upper-Body: .* longer clip$"):
-        next(stay(shortened(small_library, n_frames), graph, home, Position(home, frame), 0, allowed))
+        next(stay(Likeness(shortened(small_library, n_frames)), graph, home, Position(home, frame), 0, allowed))
 
 
 def test_a_motion_goes_on_from_its_last_window(small_library: Library) -> None:
     graph, home, allowed = cornered(small_library)
-    blend = next(stay(small_library, graph, home, Position(home, 82), 0, allowed))
+    blend = next(stay(Likeness(small_library), graph, home, Position(home, 82), 0, allowed))
     assert isinstance(blend, Blend)
     assert blend.source == Position(home, 82)
 
@@ -159,14 +217,16 @@ def test_a_motion_from_which_nothing_leads_back_is_told_by_name(small_library: L
     graph, home, allowed = cornered(small_library)
     start = Position(graph.index["Stand"], 119)
     with pytest.raises(PlayError, match=r"^no way leads back to Reach on Upper-Body from Stand$"):
-        next(stay(small_library, graph, home, start, 0, allowed))
+        next(stay(Likeness(small_library), graph, home, start, 0, allowed))
 
 
 def test_most_alike_windows_do_not_overlap(small_library: Library) -> None:
     graph, home, allowed = cornered(small_library)
     for frame in range(0, int(graph.n_frames[home]) - graph.window, 5):
         blend = next(
-            s for s in stay(small_library, graph, home, Position(home, frame), 0, allowed) if isinstance(s, Blend)
+            s
+            for s in stay(Likeness(small_library), graph, home, Position(home, frame), 0, allowed)
+            if isinstance(s, Blend)
         )
         assert np.all(blend.source.frame >= frame)
         assert blend.target.frame < blend.source.frame

@@ -14,6 +14,7 @@ from mlmg_runtime.errors import PlayError
 from mlmg_runtime.library import Library
 from mlmg_runtime.motion_graph import MotionGraph, Position
 from mlmg_runtime.playing.holding import stay
+from mlmg_runtime.playing.likeness import Likeness
 from mlmg_runtime.playing.performer import Performer
 from mlmg_runtime.playing.returning import find_return
 from mlmg_runtime.playing.timeline import Blend, Clip, Segment, Timeline
@@ -203,7 +204,7 @@ class Model:
         if at.motion != home and self.soonest(driving, at, [home], allowed) is None:
             back = self.soonest(driving, at, [home], self.allowed(above, running))
             when, at = when + back.n_frames, back.transitions[-1].arrival
-        for segment in stay(self.library, driving, home, at, when, allowed):
+        for segment in stay(Likeness(self.library), driving, home, at, when, allowed):
             for moment in range(segment.begin, segment.end if isinstance(segment, Clip) else segment.begin + 1):
                 _, there = place(segment, moment)
                 name = driving.motions[there.motion]

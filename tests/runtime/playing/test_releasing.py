@@ -13,6 +13,7 @@ from mlmg_runtime.blending import c1_weight
 from mlmg_runtime.library import Library
 from mlmg_runtime.motion_graph import MotionGraph, Position
 from mlmg_runtime.playing.holding import stay
+from mlmg_runtime.playing.likeness import Likeness
 from mlmg_runtime.playing.releasing import release
 from mlmg_runtime.playing.timeline import Blend, Clip, Segment
 from mlmg_runtime.skeleton import Poses, world_positions
@@ -29,7 +30,7 @@ def future(library: Library, graph: MotionGraph, seed: int) -> tuple[int, list[S
     def held() -> Iterator[Segment]:
         motion = int(draw.integers(0, len(graph.motions)))
         frame = int(draw.integers(0, graph.n_frames[motion] - graph.window))
-        return stay(library, graph, motion, Position(motion, frame), begin, range(len(graph.motions)))
+        return stay(Likeness(library), graph, motion, Position(motion, frame), begin, range(len(graph.motions)))
 
     own, above = (list(takewhile(lambda segment: segment.begin < begin + 200, held())) for _ in range(2))
     return begin, own, [segment for segment in above if isinstance(segment, Clip)]
