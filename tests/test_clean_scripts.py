@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import random
 from collections.abc import Callable
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -47,6 +48,12 @@ Walk_03 = ["WAVE"]
 Talk_02 = ["TALK"]
 Music_01 = ["Music"]
 """
+# A clip so short that nothing leads to it or from it; it can be begun alone.
+SHORT = """
+[clips.Blip]
+file = "FOLDER/Walk_02.bvh"
+frames = [50, 80]
+"""
 DURATIONS = ("", "", "", " for 1 sec", " for 4 sec", " for 10 frames", " for 0.3 cycles", " for 2 cycles", " once")
 WAITS = ("wait 1 sec", "wait 0.4 cycles", "wait 33 frames", "wait 7 sec")
 
@@ -55,6 +62,7 @@ WAITS = ("wait 1 sec", "wait 0.4 cycles", "wait 33 frames", "wait 7 sec")
 def opened(tmp_path_factory: pytest.TempPathFactory, request: pytest.FixtureRequest) -> Callable[[str], Library]:
     """Return a function that opens a library by what it is of; without its clips, it skips."""
 
+    @cache
     def open_by_name(name: str) -> Library:
         if name in ("demo", "reference"):
             library: Library = request.getfixturevalue(f"{name}_library")
@@ -65,7 +73,11 @@ def opened(tmp_path_factory: pytest.TempPathFactory, request: pytest.FixtureRequ
         else:
             configuration = (Path(__file__).parent / "reference.toml").read_text(encoding="utf-8")
             clips = request.getfixturevalue("mocap") / "reference" / "*.bvh"
-            text = configuration.replace("CLIPS", f'"{clips.as_posix()}"') + ARMS
+            short = SHORT.replace("FOLDER", clips.parent.as_posix())
+            text = configuration.replace("CLIPS", f'"{clips.as_posix()}"').replace(
+                "\n[[graph]]", short + "\n[[graph]]", 1
+            )
+            text = text.replace("# STONES", 'Blip = ["BLIP"]') + ARMS
             (folder / "library.toml").write_text(text, encoding="utf-8")
             built = build_library(read_configuration(folder / "library.toml"), None, lambda *_: None)
         write_database(built, folder / "built.mlmg")
@@ -143,3 +155,12 @@ def test_a_part_sets_out_though_the_body_dances_past_where_it_could(script: str,
     # A way leads there: nothing has to be blended on the spot to set out.
     first, *_ = [entry for entry in report["tracks"]["Upper-Body"] if entry["kind"] != "clip"]
     assert first["kind"] == "transition"
+
+
+@pytest.mark.parametrize("script", ["Blip; wait 7 sec", "Blip once; wait 1 sec; Idle_01 once", "TALK; BLIP once"])
+def test_a_clip_that_is_too_short_to_be_held_stands_still(script: str, opened: Callable[[str], Library]) -> None:
+    library = opened("arms")
+    plan, diagnostics = mlmg_lang.compile(script, library)
+    assert plan is not None, diagnostics
+    report = mlmg_lang.play(plan, library).report
+    assert report["n_frames"] == report["tracks"]["Full-Body"][-1]["end"]

@@ -6,6 +6,7 @@ How alike is told by the Overall Motion Similarity of what a part does to what t
 from __future__ import annotations
 
 from collections.abc import Iterator
+from math import inf
 
 from mlmg_lang.catalog import Catalog
 from mlmg_lang.diagnostics import Diagnostic
@@ -24,7 +25,8 @@ def unusual(resolution: Resolution, names: Names, catalog: Catalog) -> Iterator[
         for layer in command.layers:
             above = _above(layer, command, resolution, names)
             distances = [catalog.unlikeness(layer.graph, one, other) for one in above for other in layer.candidates]
-            if distances and min(distances) > FAR:
+            # A motion with a clip too short to be compared is infinitely far from all: of that, nothing is known.
+            if distances and FAR < min(distances) < inf:
                 yield _warning(layer, above, min(distances), names, catalog)
 
 
@@ -51,4 +53,4 @@ def _warning(layer: Layer, above: tuple[str, ...], distance: float, names: Names
     )
     others = [motion for motion in names.motions(graph) if motion not in above]
     best = sorted(others, key=lambda motion: min(catalog.unlikeness(graph, one, motion) for one in above))
-    return Diagnostic("MS061", message, layer.span, f"what fits best there: {listed(best[:3])}")
+    return Diagnostic("MS061", message, layer.span, f"what fits best there: {listed(best[:3])}" if best else None)

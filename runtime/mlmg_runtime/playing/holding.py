@@ -8,7 +8,7 @@ from mlmg_runtime.errors import PlayError
 from mlmg_runtime.motion_graph import USUAL_BRIDGE, MotionGraph, Position, Transition
 from mlmg_runtime.playing.likeness import Alike, Likeness
 from mlmg_runtime.playing.search import find_path
-from mlmg_runtime.playing.timeline import Blend, Segment, play_along, play_clip
+from mlmg_runtime.playing.timeline import Blend, Clip, Segment, play_along, play_clip
 
 
 def stay(
@@ -19,7 +19,8 @@ def stay(
     The motion is left as late as its own backward transitions allow. Where it has none, the shortest way round that
     comes back to it is taken. Past the last of them it is blended back on the spot to before that, between the two most
     alike windows up to where the way round would leave it; the way round is taken if these are farther apart than it
-    is, and than bridges usually are. Where there is no way round, a blend is made on the spot.
+    is, and than bridges usually are. Where there is no way round, a blend is made on the spot; a clip that is too short
+    for that stands still in its last frame.
 
     Parameters
     ----------
@@ -29,7 +30,7 @@ def stay(
     Raises
     ------
     PlayError
-        If the motion is too short to be held.
+        If the graph is in another motion, and no way leads back.
     """
     loop = latest_loop(graph, home)
     while True:
@@ -65,13 +66,19 @@ def _come_back(
         return [*play_clip(time, position, alike.leave - position.frame), blend]
     if way:
         return play_along(way, graph.window, position, time)
-    name = graph.motions[home]
     if position.motion != home:
-        raise PlayError(f"no way leads back to {name} on {graph.name} from {graph.motions[position.motion]}")
-    raise PlayError(
-        f"{name} cannot go on after frame {position.frame} on {graph.name}: no transition leaves it there, and the "
-        f"clip is too short to be led back into itself; allow more transitions, or give it a longer clip"
-    )
+        raise PlayError(
+            f"no way leads back to {graph.motions[home]} on {graph.name} from {graph.motions[position.motion]}"
+        )
+    return _stand_still(graph, position, time)
+
+
+def _stand_still(graph: MotionGraph, position: Position, time: int) -> Sequence[Segment]:
+    """Return the rest of a clip and its last frame once more."""
+    last = Position(position.motion, int(graph.n_frames[position.motion]) - 1)
+    rest = play_clip(time, position, last.frame - position.frame)
+    time = rest[-1].end if rest else time
+    return [*rest, Clip(time, time + 1, last, 0)]
 
 
 def _most_alike(

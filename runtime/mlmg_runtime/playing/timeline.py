@@ -16,7 +16,7 @@ class Clip:
     Attributes
     ----------
     first : motion and frame of the first output frame.
-    n_source : how far the clip goes on; other than end - begin where its speed is bent.
+    n_source : how far the clip goes on; other than end - begin where its speed is bent, 0 where it stands still.
     """
 
     begin: int
@@ -90,7 +90,8 @@ def appended(track: tuple[Segment, ...], segment: Segment) -> tuple[Segment, ...
         and isinstance(segment, Clip)
         and last.end == segment.begin
         and last.after == segment.first
-        and last.speed == segment.speed == 1.0
+        and last.speed == segment.speed
+        and segment.speed in (0.0, 1.0)
     ):
         return (*track[:-1], replace(last, end=segment.end, n_source=last.n_source + segment.n_source))
     return (*track, segment)

@@ -64,10 +64,20 @@ def test_the_places_of_each_list_share_its_chance():
     assert (places.frames.tolist(), places.shares.tolist()) == ([7, 8], [0.75, 0.25])
 
 
-def test_what_cannot_go_on_is_told_as_far_as_it_goes(demo_library):
+def test_what_stands_still_is_in_its_last_frame_for_ever(demo_library):
     """Without transitions, and too near to the clip's end to be blended back into itself."""
     graph = replace(demo_library.root, transitions=demo_library.root.transitions[:0])
-    position = Position(0, int(graph.n_frames[0]) - 3)
+    last = int(graph.n_frames[0]) - 1
+    position = Position(0, last - 2)
+    stays = staying(Likeness(demo_library), graph, 0, position, ())
+    assert after(stays, position, inf) == after(stays, position, 9) == [(Position(0, last), 0)]
+    assert after(stays, position, 1) == [(Position(0, last - 1), 0)]
+
+
+def test_what_cannot_go_on_is_told_as_far_as_it_goes(demo_library):
+    """Without transitions, and in another motion."""
+    graph = replace(demo_library.root, transitions=demo_library.root.transitions[:0])
+    position = Position(1, 7)
     stays = staying(Likeness(demo_library), graph, 0, position, ())
     assert (stays.segments, after(stays, position, inf), after(stays, position, 9)) == (
         (),

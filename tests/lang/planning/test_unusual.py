@@ -56,3 +56,18 @@ def test_it_says_what_does_not_fit_what_and_how_far_it_is(told: Callable[[str], 
         "this may look unnatural: `Talk_01` and `Talk_02` on `Upper-Body` do not fit `Walk_02`, "
         "2.6 times as far apart as is usual"
     )
+
+
+def test_of_a_clip_that_is_too_short_to_be_compared_nothing_is_told(reference: Any) -> None:
+    far = {("Upper-Body", motion, "Talk_02"): float("inf") for motion in reference.on["Full-Body"]}
+    analysis = analyse(Source("Walk_01 with Upper-Body Talk_02 for 5 sec"), replace(reference, far=far))
+    assert analysis.diagnostics == ()
+
+
+def test_where_no_other_motion_is_left_none_is_said_to_fit_best(reference: Any, catalog: Any) -> None:
+    names = {"Walk_01": (), "Talk_02": ()}
+    far = {("Arm", one, other): 3.0 for one in names for other in names}
+    library = catalog({"Body": names, "Arm": names}, {"Arm": "Body"}, start="Walk_01", far=far)
+    script = "choose { Walk_01 for 1 sec | Talk_02 for 1 sec }\nArm Talk_02 for 5 sec"
+    (told,) = [one for one in analyse(Source(script), library).diagnostics if one.code == "MS061"]
+    assert told.help is None

@@ -1,6 +1,6 @@
 from collections.abc import Iterator
 from dataclasses import replace
-from itertools import pairwise, takewhile
+from itertools import islice, pairwise, takewhile
 
 import numpy as np
 import pytest
@@ -10,7 +10,7 @@ from mlmg_runtime.library import Library
 from mlmg_runtime.motion_graph import MotionGraph, Position, Transition
 from mlmg_runtime.playing.holding import latest_loop, stay
 from mlmg_runtime.playing.likeness import Alike, Likeness
-from mlmg_runtime.playing.timeline import Blend, Clip, Segment
+from mlmg_runtime.playing.timeline import Blend, Clip, Segment, appended
 from mlmg_runtime.point_cloud import point_cloud, window_distances
 from mlmg_runtime.skeleton import Poses, world_positions
 
@@ -199,11 +199,21 @@ def test_a_clip_of_two_windows_is_led_back_from_the_second_to_the_first(small_li
 
 
 # Reach has 90 frames, so that its last window of 8 begins at 82.
-@pytest.mark.parametrize(("n_frames", "frame"), [(90, 83), (90, 88), (16, 9), (15, 0), (8, 0)])
-def test_a_motion_that_cannot_go_on_is_told_by_name(small_library: Library, n_frames: int, frame: int) -> None:
+@pytest.mark.parametrize(("n_frames", "frame"), [(90, 83), (90, 89), (90, 90), (16, 9), (15, 0), (8, 0)])
+def test_a_motion_that_is_too_short_to_be_led_back_stands_still_in_its_last_frame(
+    small_library: Library, n_frames: int, frame: int
+) -> None:
     graph, home, allowed = cornered(small_library)
-    with pytest.raises(PlayError, match=rf"^Reach cannot go on after frame {frame} on Upper-Body: .* longer clip$"):
-        next(stay(Likeness(shortened(small_library, n_frames)), graph, home, Position(home, frame), 0, allowed))
+    graph = replace(graph, n_frames=np.where(np.arange(len(graph.n_frames)) == home, n_frames, graph.n_frames))
+    likeness = Likeness(shortened(small_library, n_frames))
+    track: tuple[Segment, ...] = ()
+    for segment in islice(stay(likeness, graph, home, Position(home, frame), 7, allowed), 30):
+        track = appended(track, segment)
+    rest = max(n_frames - 1 - frame, 0)
+    *moving, still = track
+    assert moving == ([Clip(7, 7 + rest, Position(home, frame), rest)] if rest else [])
+    assert (still.begin, still.first, still.speed) == (7 + rest, Position(home, n_frames - 1), 0.0)
+    assert still.end - still.begin >= 29
 
 
 def test_a_motion_goes_on_from_its_last_window(small_library: Library) -> None:
