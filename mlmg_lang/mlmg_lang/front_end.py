@@ -12,6 +12,7 @@ from mlmg_lang.definitions.expand import expand
 from mlmg_lang.definitions.gather import Definitions, Files, NoFiles, gather
 from mlmg_lang.diagnostics import Diagnostic
 from mlmg_lang.parsing.case import guess_case
+from mlmg_lang.parsing.lookalikes import opens_or_closes
 from mlmg_lang.parsing.parse import parse
 from mlmg_lang.parsing.structure import check_definition, check_structure, misplaced
 from mlmg_lang.parsing.syntax import Choose, Let, Repeat, Script, Use, walk
@@ -167,6 +168,8 @@ def _edited(previous: Analysis, source: Source) -> Analysis | None:
     before, question = previous.pieces, previous.question
     edit = edit_between(previous.source.text, source.text)
     spot = reread(before, source, edit)
+    if opens_or_closes(spot.tokens):
+        return None
     parsed = parse(spot.source, spot.tokens)
     if _defines(parsed.script):
         return None

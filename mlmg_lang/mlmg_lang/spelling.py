@@ -21,12 +21,17 @@ def nearest(name: str, known: Iterable[str], limit: int = 3) -> tuple[str, ...]:
     """Return the known names that look most like `name`, the most like first; none if none looks like it."""
     from rapidfuzz import fuzz, process
 
-    wanted = folded(name)
+    wanted = _seen(name)
     found = process.extract(
-        wanted, list(dict.fromkeys(known)), scorer=fuzz.ratio, processor=folded, limit=limit, score_cutoff=65
+        wanted, list(dict.fromkeys(known)), scorer=fuzz.ratio, processor=_seen, limit=limit, score_cutoff=65
     )
     by_letters = [choice for choice, _, _ in found]
     return tuple(by_letters) or _same_letters(wanted, known, limit)
+
+
+def _seen(name: str) -> str:
+    """Return a name as it looks: without what is ignored in names, and wide letters like others."""
+    return folded(unicodedata.normalize("NFKC", name))
 
 
 def _same_letters(wanted: str, known: Iterable[str], limit: int) -> tuple[str, ...]:

@@ -31,6 +31,7 @@ LINES = (
 BITS = (
     *LINES,
     *(" ", "\n", "\r", "\r\n", "{", "}", "(", ")", "|", ";", ":", '"', "# x", "W", "_", "1", "”", "-", "\\", "=", ","),
+    *("/*", "*/", "// ", " -- ", "\uff08", "\uff09", "\uff5b", "\uff5d", "\uff1b", "\uff03", "\uff12", "loop 2 {\n"),
     *("repeat 2 {\n", "choose {\n", "with TALK\n", "WLAK\n", "walk01\n", "let x = WALK\n", "# mlmg: ignore[MS047]\n"),
 )
 EDITS = st.lists(st.tuples(st.integers(0, 10_000), st.integers(0, 9), st.sampled_from(("", *BITS))), max_size=8)

@@ -47,7 +47,7 @@ Fixed = Callable[..., str]
         ("Upper-Body not TALK", "not Upper-Body TALK"),
         ("WALK not TALK", "WALK and not TALK"),
         ("WALK（TALK） for 3 sec", "WALK(TALK) for 3 sec"),
-        ("Upper--Body", '"Upper--Body"'),
+        ("Upper--Body", "Upper-Body"),
         ("3d_walk", '"3d_walk"'),
         ("hand😀", '"hand😀"'),
         ("（WALK）", "(WALK)"),
@@ -58,7 +58,7 @@ Fixed = Callable[..., str]
         ('"C:\\new"', '"C:\\\\new"'),
         ("TALK with to", 'TALK with "to"'),
         ("repeat 2\n{ WALK }", "repeat 2 { WALK }"),
-        ("WALK for 0 sec", "WALK"),
+        ("WALK for ten sec", "WALK for 10 sec"),
     ],
 )
 def test_a_script_is_mended_as_its_writer_would(script: str, right: str, fixed: Fixed) -> None:

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from mlmg_lang.formatting.printing import Printer
 from mlmg_lang.parsing.layout import lay_out
+from mlmg_lang.parsing.lookalikes import has_other_comments
 from mlmg_lang.parsing.tokenize import MAX_TOKENS, tokenize
 from mlmg_lang.source import Source
 
@@ -34,7 +35,8 @@ def format_source(source: Source) -> str:
 def format_script(source: Source) -> Formatted:
     """Return the same, and whether all of it could be read."""
     tokens = tokenize(source)
-    if len(tokens) == MAX_TOKENS:
+    # Lines of other comments would be taken for statements, and broken up.
+    if len(tokens) == MAX_TOKENS or has_other_comments(tokens):
         return Formatted(source.text, False)
     printer = Printer(source, tokens, lay_out(tokens))
     return Formatted(printer.script(), not printer.kept)

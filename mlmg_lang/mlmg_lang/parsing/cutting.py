@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from mlmg_lang.parsing.lookalikes import as_meant
 from mlmg_lang.parsing.tokens import CONTINUES, OPENS_STATEMENT, Token
 
 
@@ -32,7 +33,7 @@ def cut(tokens: Sequence[Token]) -> Cuts:
     end: int | None = None
     depth = n_open = 0
     first, empty = True, True
-    for token in tokens:
+    for token in as_meant(tokens):
         kind = token.type
         if kind == "NEWLINE":
             if depth == n_open == 0 and not empty and end is None:

@@ -6,19 +6,23 @@ from collections.abc import Mapping
 from types import MappingProxyType
 from typing import Final
 
-OTHER_WORDS: Final[Mapping[str, str]] = MappingProxyType(
+_HERE: Final[Mapping[str, tuple[str, ...]]] = MappingProxyType(
     {
-        **dict.fromkeys(("def", "define", "set", "var", "const", "function", "func", "fn", "fun", "macro"), "let"),
-        **dict.fromkeys(("import", "include", "require", "load"), "use"),
-        **dict.fromkeys(("loop", "times", "while", "do", "foreach"), "repeat"),
-        **dict.fromkeys(("random", "randomly", "either", "pick", "select", "switch"), "choose"),
-        **dict.fromkeys(("pause", "sleep", "hold", "delay", "stay"), "wait"),
-        **dict.fromkeys(("stop", "finish", "release", "halt", "cancel"), "end"),
-        **dict.fromkeys(("while", "during", "plus", "whilst"), "with"),
-        **dict.fromkeys(("during", "lasting"), "for"),
+        "let": ("def", "define", "set", "var", "const", "function", "func", "fn", "fun", "macro"),
+        "use": ("import", "include", "require", "load"),
+        "repeat": ("loop", "times", "while", "do", "foreach"),
+        "choose": ("random", "randomly", "either", "pick", "select", "switch"),
+        "wait": ("pause", "sleep", "hold", "delay", "stay"),
+        "end": ("stop", "finish", "release", "halt", "cancel"),
+        "with": ("while", "during", "plus", "whilst"),
+        "for": ("during", "lasting", "over"),
     }
 )
-"""Such a word -> the word of the language."""
+"""A word of the language -> those that stand elsewhere for it."""
+MEANT: Final[Mapping[str, tuple[str, ...]]] = MappingProxyType(
+    {word: tuple(own for own, others in _HERE.items() if word in others) for words in _HERE.values() for word in words}
+)
+"""A word of other languages -> the words of the language that it may stand for."""
 
 NEXT: Final = frozenset({"then", "next", "afterwards", "after", "before", "until"})
 """What people write between two things of which one comes after the other."""
@@ -37,4 +41,4 @@ NUMBERS: Final[Mapping[str, str]] = MappingProxyType(
 
 def other_word(text: str, wanted: str) -> bool:
     """Return whether a word stands elsewhere for a word of the language."""
-    return OTHER_WORDS.get(text.lower()) == wanted
+    return wanted in MEANT.get(text.lower(), ())

@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 from itertools import accumulate
 
 from mlmg_lang.diagnostics import Diagnostic, Fix
+from mlmg_lang.parsing.foreign import other_word
 from mlmg_lang.parsing.tokens import CONTINUES, OPENS_STATEMENT, Token
 from mlmg_lang.source import Span
 
@@ -86,7 +87,7 @@ class _Frame:
 
     @property
     def chooses(self) -> bool:
-        return bool(self.head) and self.head[0].text.lower() == "choose"
+        return bool(self.head) and (self.head[0].text.lower() == "choose" or other_word(self.head[0].text, "choose"))
 
 
 class _Cutter:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-import unicodedata
 from collections.abc import Iterable, Iterator, Sequence
 from typing import Final
 
@@ -18,7 +17,7 @@ _ENDS_NAME: Final = re.compile(r"\s*#|\s+(?:with|and|or|for|once)(?!\S)")
 """What stands rather behind a name whose closing quote was forgotten than in it."""
 
 
-_CURLY: Final = frozenset("\u201c\u201d\u201e\u201f\u00ab\u00bb\u2018\u2019\u201a")
+_CURLY: Final = frozenset("\u201c\u201d\u201e\u201f\u00ab\u00bb\u2018\u2019\u201a\uff02")
 """What editors for prose make of quotes."""
 
 
@@ -88,12 +87,6 @@ def _odd_name(token: Token) -> Diagnostic:
     letters = dict.fromkeys(letter for letter in token.text if letter != "-")
     wrong = [_shown(letter) for letter in letters if not f"_{letter}".isidentifier()]
     does = f"hold {listed(wrong)}" if wrong else f"begin with `{_shown(token.text[0])}`"
-    plain = unicodedata.normalize("NFKC", token.text)
-    if plain != token.text and plain.isascii():
-        message = f"a name without quotes cannot {does}: wide letters and signs have no meaning here"
-        plain = re.sub(r"([),;:])(?=\w)", r"\1 ", plain)
-        fix = Fix(token.span, plain, safe=is_name(plain))
-        return Diagnostic("MS003", message, token.span, f"write `{plain}`", fixes=(fix,))
     message = f"a name without quotes cannot {does}"
     if not token.text.isprintable():
         return _unseen(token, f"{message}, which cannot be seen")

@@ -26,12 +26,14 @@ class Stuck:
     ----------
     at : the index of the first token that does not fit; the number of tokens if the end comes too early.
     accepts : the types of token that could stand there; `$END` is the end of the line.
+    in_choose : whether the line stands in the braces of a `choose`.
     """
 
     source: Source
     tokens: tuple[Token, ...]
     at: int
     accepts: frozenset[str]
+    in_choose: bool = False
 
     @property
     def left(self) -> int:
@@ -57,13 +59,18 @@ class Stuck:
         return Span(end, end)
 
 
-def read(source: Source, tokens: Sequence[Token]) -> Line | Stuck:
-    """Parse one line; the tokens need not be those of the source."""
+def read(source: Source, tokens: Sequence[Token], in_choose: bool = False) -> Line | Stuck:
+    """Parse one line; the tokens need not be those of the source.
+
+    Parameters
+    ----------
+    in_choose : whether it stands in the braces of a `choose`.
+    """
     parser = motion_script().parse_interactive(start=LINE)
     at = _feed(parser, tokens)
     if at is None:
         return cast("Line", parser.result)
-    return Stuck(source, tuple(tokens), at, _accepted_before(tokens[:at]))
+    return Stuck(source, tuple(tokens), at, _accepted_before(tokens[:at]), in_choose)
 
 
 def _feed(parser: InteractiveParser, tokens: Sequence[Token]) -> int | None:

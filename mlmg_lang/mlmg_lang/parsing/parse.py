@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
+from itertools import islice
 from typing import TYPE_CHECKING
 
 from mlmg_lang.diagnostics import Diagnostic
@@ -11,6 +12,7 @@ from mlmg_lang.parsing import syntax
 from mlmg_lang.parsing.layout import MAX_DEPTH, Block, Line, lay_out
 from mlmg_lang.parsing.lexical import check_tokens, join_quoted
 from mlmg_lang.parsing.line_parser import Stuck, read
+from mlmg_lang.parsing.lookalikes import as_meant, lookalikes
 from mlmg_lang.parsing.tokenize import MAX_TOKENS
 from mlmg_lang.parsing.tokens import Token
 from mlmg_lang.source import Source, Span
@@ -41,11 +43,14 @@ def parse(source: Source, tokens: Sequence[Token], base: int = 0) -> Parsed:
     ----------
     base : where the file begins whose tokens these are: the script itself, or one that it uses.
     """
-    tokens = join_quoted(tokens, source)
-    layout = lay_out(tokens)
     reader = _Reader(source)
-    reader.diagnostics += [*check_tokens(tokens), *layout.diagnostics][:MAX_MISTAKES]
-    if len(tokens) == MAX_TOKENS:
+    reader.diagnostics += islice(lookalikes(tokens, source), MAX_MISTAKES)
+    is_cut_off = len(tokens) == MAX_TOKENS
+    tokens = join_quoted(as_meant(tokens), source)
+    layout = lay_out(tokens)
+    reader.diagnostics += [*check_tokens(tokens), *layout.diagnostics]
+    del reader.diagnostics[MAX_MISTAKES:]
+    if is_cut_off:
         reader.cut_off(tokens[-1])
     items = reader.items(layout.items)
     span = Span(base, base + len(source.file(base)[0].text))
@@ -58,6 +63,7 @@ class _Reader:
     def __init__(self, source: Source) -> None:
         self.diagnostics: list[Diagnostic] = []
         self._source = source
+        self._in_choose = False
 
     def cut_off(self, last: Token) -> None:
         """Say that there is more text than is read."""
@@ -93,12 +99,12 @@ class _Reader:
         if not block.head:
             self._say("MS013", "this `{` has no `repeat` or `choose` before it", block.brace, "take the braces out")
             return self._flattened(block)
-        head = self._read(block.head)
+        head = self._head(block)
         if isinstance(head, syntax.ChooseHead):
             branches = tuple(self._branch(branch, block.span) for branch in block.branches)
             return [syntax.Choose(head, branches, block.span)]
         if isinstance(head, syntax.RepeatHead):
-            return [syntax.Repeat(head, self.items(block.branches[0]), block.span)]
+            return [syntax.Repeat(head, self._body(block.branches[0], False), block.span)]
         if isinstance(head, syntax.Broken):
             return [head, *self._flattened(block)]
         self._say("MS013", "only `repeat` and `choose` are followed by `{`", block.brace, "take the braces out")
@@ -106,6 +112,26 @@ class _Reader:
             syntax.Broken(head.span) if isinstance(head, syntax.Weight) else head,
             *self._flattened(block),
         ]
+
+    def _head(self, block: Block) -> syntax.Line | syntax.Broken:
+        """Return what stands before a brace, also if that is said as in other languages."""
+        if block.head[0].type in ("REPEAT", "CHOOSE"):
+            return self._read(block.head)
+        from mlmg_lang.parsing.mistakes.blocks import other_head
+
+        mistake = other_head(block.head, block.brace)
+        if mistake is None:
+            return self._read(block.head)
+        self.diagnostics.append(mistake.diagnostic)
+        span = Span(block.head[0].span.start, block.head[-1].span.end)
+        return syntax.Broken(span) if mistake.meant is None else self._read(mistake.meant)
+
+    def _body(self, pieces: Iterable[Line | Block], in_choose: bool) -> tuple[syntax.Item, ...]:
+        """Return the items in the braces of a `repeat` or `choose`."""
+        outside, self._in_choose = self._in_choose, in_choose
+        items = self.items(pieces)
+        self._in_choose = outside
+        return items
 
     def _flattened(self, block: Block) -> list[syntax.Item]:
         return [item for branch in block.branches for item in self.items(branch)]
@@ -116,7 +142,7 @@ class _Reader:
         if isinstance(first, Line) and [token.type for token in first.tokens] == ["INTEGER", "COLON"]:
             weight = syntax.Weight(first.tokens[0].text, Span(first.tokens[0].span.start, first.tokens[1].span.end))
             pieces = pieces[1:]
-        body = self.items(pieces)
+        body = self._body(pieces, True)
         parts = [*([weight] if weight else []), *body]
         span = Span(parts[0].span.start, parts[-1].span.end) if parts else Span(block.end, block.end)
         return syntax.Branch(weight, body, span)
@@ -141,7 +167,7 @@ class _Reader:
     def _mended(self, tokens: tuple[Token, ...]) -> syntax.Line | None:
         """Parse; while the parser is stuck, say why and go on with what was meant, if that leads further."""
         left = len(tokens) + 1
-        outcome = read(self._source, tokens)
+        outcome = read(self._source, tokens, self._in_choose)
         while isinstance(outcome, Stuck):
             if outcome.left >= left:
                 return None
@@ -150,7 +176,7 @@ class _Reader:
             self.diagnostics.append(mistake.diagnostic)
             if mistake.meant is None:
                 return None
-            outcome = read(self._source, mistake.meant)
+            outcome = read(self._source, mistake.meant, self._in_choose)
         return outcome
 
     def _explained(self, stuck: Stuck) -> Mistake:

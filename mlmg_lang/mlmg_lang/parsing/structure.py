@@ -49,7 +49,7 @@ def check_definition(let: syntax.Let, frame_rate: float | None = None) -> Iterat
     yield from structure.motion(let.command.motion, sub=True)
     parameters = tuple(parameter.name.text for parameter in let.parameters or ())
     if let.command.duration is not None:
-        yield from structure.duration(let.command.duration, _written(let.command), parameters)
+        yield from structure.duration(let.command.duration, parameters)
 
 
 def motion_mistakes(motion: syntax.Motion, complete: bool) -> Iterator[Diagnostic]:
@@ -107,8 +107,8 @@ class _Structure:
                     yield from self._choose(item)
                 case syntax.Command():
                     yield from self._command(item)
-                case syntax.Wait(duration, span):
-                    yield from self.duration(duration, span)
+                case syntax.Wait(duration):
+                    yield from self.duration(duration)
                 case syntax.End(graph) if is_sub(graph):
                     yield _misplaced_sub(graph)
 
@@ -136,14 +136,12 @@ class _Structure:
         if command.duration is not None and (
             isinstance(command.duration, syntax.Quantity) or _is_within(command.duration, command)
         ):
-            yield from self.duration(command.duration, _written(command))
+            yield from self.duration(command.duration)
 
     # --- durations ---
 
-    def duration(
-        self, amount: syntax.Amount, whole: Span | None, parameters: Sequence[str] = ()
-    ) -> Iterator[Diagnostic]:
-        """Yield what is wrong with a duration; `whole` is what could be taken out if it lasts no time, if anything."""
+    def duration(self, amount: syntax.Amount, parameters: Sequence[str] = ()) -> Iterator[Diagnostic]:
+        """Yield what is wrong with a duration; `parameters` are those of the definition that it stands in."""
         if isinstance(amount, syntax.Name):
             if amount.sound and normal(amount.text) not in map(normal, parameters):
                 yield _no_number(amount, parameters)
@@ -153,8 +151,8 @@ class _Structure:
         shortest = 0.5 / self.frame_rate if self.frame_rate is not None else 0.0
         if number == 0 or (seconds is not None and seconds < shortest):
             message = "this lasts no time" if number == 0 else "this is shorter than a frame"
-            fixes = () if whole is None else (Fix(whole, "", safe=False),)
-            yield Diagnostic("MS045", message, amount.span, help="leave it out, or give it time", fixes=fixes)
+            # No edit: without `for`, the last command of a script plays to the end of its clip.
+            yield Diagnostic("MS045", message, amount.span, help="write how long, as in `3 sec`")
         elif seconds is not None and seconds > LONGEST_S:
             yield Diagnostic("MS046", "this is longer than a day", amount.span, help="check number and unit")
         elif unit_of(amount) == "cycles" and number > LONGEST_S:
@@ -211,13 +209,6 @@ class _Structure:
 
 def _is_within(part: syntax.Node, whole: syntax.Node) -> bool:
     return whole.span.start <= part.span.start and part.span.end <= whole.span.end
-
-
-def _written(command: syntax.Command) -> Span | None:
-    """Return where a command says how long, `for` included; None if that comes from elsewhere or is in its midst."""
-    assert command.duration is not None
-    start, end = command.motion.span.end, command.duration.span.end
-    return Span(start, end) if command.span.start < start <= end == command.span.end else None
 
 
 def _nested(item: syntax.Let | syntax.Use) -> Diagnostic:

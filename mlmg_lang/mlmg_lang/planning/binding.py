@@ -161,6 +161,8 @@ def _qualified(node: syntax.Qualified, scope: Scope) -> Iterator[Unbound]:
     is_known = bool(names.places(graph.text))
     if wrong and names.graph(name.text) is not None and other_word(graph.text, "end"):
         yield Unbound(_for_end(node))
+    elif wrong and name.quoted and other_word(graph.text, "use"):
+        yield Unbound(_for_use(graph))
     elif wrong and graph.text.lower() in NEXT:
         yield Unbound(_comes_next(graph))
     elif wrong and is_known and (swapped := _graph_meant(name, inner, names)) is not None:
@@ -303,6 +305,12 @@ def _for_end(node: syntax.Qualified) -> Diagnostic:
     message = f"`{node.graph.text}` is not a word of the language"
     advice = f"to give a part back to the rest of the body, write `end {script_name(node.motion.name.text)}`"
     return Diagnostic("MS019", message, node.graph.span, advice, fixes=(Fix(node.graph.span, "end", safe=False),))
+
+
+def _for_use(word: syntax.Name) -> Diagnostic:
+    """Say what `import "gestures.ms"` is."""
+    message = f"`{word.text}` is not a word of the language"
+    return Diagnostic("MS019", message, word.span, "write `use`", fixes=(Fix(word.span, "use", safe=False),))
 
 
 def _comes_next(word: syntax.Name) -> Diagnostic:

@@ -29,7 +29,10 @@ def explain(stuck: Stuck) -> Mistake:
 
 _RULES: Final[tuple[Callable[[Stuck], Mistake | None], ...]] = (
     words.wrong_case,
+    words.comes_next,
+    words.word_of_other_languages,
     durations.odd_number,
+    durations.number_of_other_languages,
     durations.clock_time,
     durations.two_quantities,
     durations.duration_first,
@@ -45,6 +48,7 @@ _RULES: Final[tuple[Callable[[Stuck], Mistake | None], ...]] = (
     heads.not_behind_name,
     heads.graph_missing,
     heads.path_missing,
+    heads.definition,
     heads.equals_missing,
     heads.meaning_missing,
     heads.comma_missing,

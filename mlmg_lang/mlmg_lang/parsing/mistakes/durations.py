@@ -2,16 +2,22 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
+from typing import Final
 
 from mlmg_grammar import is_name
 from mlmg_lang.diagnostics import Fix
 from mlmg_lang.parsing.amounts import SECONDS, UNITS, spelled
+from mlmg_lang.parsing.foreign import NUMBERS as IN_WORDS
 from mlmg_lang.parsing.line_parser import Stuck
 from mlmg_lang.parsing.mistakes.mistake import Mistake, across, found, mistake, replaced
 from mlmg_lang.parsing.tokens import NAMES, NUMBERS, OPENS_STATEMENT, Token
 from mlmg_lang.source import Span
 from mlmg_lang.spelling import nearest
+
+_OTHER_NUMBER: Final = re.compile(r"[0-9]+(?:_[0-9]+)*(?:\.[0-9]+)?(?:[eE]-?[0-9]{1,3})?")
+"""A number as other languages write it."""
 
 
 def odd_number(stuck: Stuck) -> Mistake | None:
@@ -42,7 +48,7 @@ def _odd_beginning(stuck: Stuck, sign: Token, after: Token) -> Mistake | None:
     span = across(sign, after)
     if sign.text in ("-", "+"):
         what = "how often something is repeated" if stuck.tokens[0].type == "REPEAT" else "a duration"
-        message, right = f"{what} has no sign", after.text
+        message, right = f"{what} {'cannot be negative' if sign.text == '-' else 'has no sign'}", after.text
     elif after.type == "INTEGER":
         message, right = f"a number begins with a digit, not with `{sign.text}`", f"0.{after.text}"
     else:
@@ -54,6 +60,23 @@ def _odd_beginning(stuck: Stuck, sign: Token, after: Token) -> Mistake | None:
 
 def _number(text: str, span: Span) -> Token:
     return Token("DECIMAL" if "." in text else "INTEGER", text, span)
+
+
+def number_of_other_languages(stuck: Stuck) -> Mistake | None:
+    """`for 1e3 sec`, `repeat 1_000`."""
+    number, name = stuck.token(-1), stuck.token(0)
+    if number is None or number.type not in NUMBERS or name is None or name.span.start != number.span.end:
+        return None
+    span = across(number, name)
+    written = stuck.source.slice(span)
+    if not _OTHER_NUMBER.fullmatch(written):
+        return None
+    right = spelled(float(written))
+    if float(right) == 0 or len(right) > 12:
+        return mistake("MS017", f"`{written}` is not a number", span, "write it in digits, as in `1000` or `0.25`")
+    meant = replaced(stuck, stuck.at - 1, _number(right, span), n=2)
+    return mistake("MS017", f"`{written}` is not a number in Motion Script", span, f"write `{right}`",
+                   Fix(span, right, safe=True), meant=meant)  # fmt: skip
 
 
 def clock_time(stuck: Stuck) -> Mistake | None:
@@ -145,9 +168,13 @@ def number_in_words(stuck: Stuck) -> Mistake | None:
     word = stuck.token(-1)
     if stuck.type(0) != "UNIT" or word is None or stuck.type(-2) not in ("FOR", "WAIT"):
         return None
-    meant = replaced(stuck, stuck.at - 1, replace(word, type="INTEGER", text="1"))
+    digits = IN_WORDS.get(word.text.lower())
+    meant = replaced(stuck, stuck.at - 1, replace(word, type="INTEGER", text=digits or "1"))
     message = f"`{word.text}` is not a number"
-    return mistake("MS017", message, word.span, "write the number in digits", meant=meant)
+    if digits is None:
+        return mistake("MS017", message, word.span, "write the number in digits", meant=meant)
+    fix = Fix(word.span, digits, safe=True)
+    return mistake("MS017", "numbers are written in digits", word.span, f"write `{digits}`", fix, meant=meant)
 
 
 def for_missing(stuck: Stuck) -> Mistake | None:

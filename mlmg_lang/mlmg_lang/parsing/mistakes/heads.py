@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from fractions import Fraction
+
 from mlmg_lang.diagnostics import Fix
+from mlmg_lang.parsing.foreign import other_word
 from mlmg_lang.parsing.line_parser import Stuck
-from mlmg_lang.parsing.mistakes.mistake import Mistake, found, mistake, replaced
+from mlmg_lang.parsing.mistakes.mistake import Mistake, across, found, gets_further, mistake, replaced
 from mlmg_lang.parsing.tokens import NAMES, Token
 from mlmg_lang.source import Span
 
@@ -29,6 +33,80 @@ def path_missing(stuck: Stuck) -> Mistake | None:
     quoted = f'"{name.text}.ms"'
     message = "the file behind `use` stands in double quotes"
     return mistake("MS010", message, name.span, f"write `use {quoted}`", Fix(name.span, quoted, safe=False))
+
+
+def definition(stuck: Stuck) -> Mistake | None:
+    """`def GREET = WALK`, `GREET = WALK`, `let GREET := WALK`, `let GREET x = x`: what stands before what it means."""
+    word = stuck.tokens[0] if _defines(stuck.tokens[0]) else None
+    at = _equals(stuck.tokens, word is not None)
+    if at is None or at == (0 if word is None else 1):
+        return None
+    after = at + 1
+    while after < len(stuck.tokens) and stuck.tokens[after].type == "EQUALS":
+        after += 1
+    names = stuck.tokens[0 if word is None else 1 : at - (stuck.tokens[at - 1].type == "COLON")]
+    parameters = _parameters(names)
+    if parameters is None:
+        return None
+    equals = Token("EQUALS", "=", stuck.tokens[at].span)
+    meant = (Token("LET", "let", names[0].span), names[0], *parameters, equals, *stuck.tokens[after:])
+    if [token.type for token in meant] == [token.type for token in stuck.tokens] or not gets_further(stuck, meant):
+        return None
+    return _definition(stuck, word, names, meant, across(stuck.tokens[at - (names[-1] is not stuck.tokens[at - 1])],
+                                                        stuck.tokens[after - 1]))  # fmt: skip
+
+
+def _defines(token: Token) -> bool:
+    return token.type == "LET" or (token.type == "NAME" and other_word(token.text, "let"))
+
+
+def _equals(tokens: Sequence[Token], is_told: bool) -> int | None:
+    """Return where the sign, or the word, stands between a name and what it means; `is_told`: that it is defined."""
+    depth = 0
+    for at, token in enumerate(tokens):
+        depth += (token.type == "LEFT") - (token.type == "RIGHT")
+        if depth == 0 and token.type == "EQUALS":
+            return at
+    if not is_told:
+        return None
+    says = ((at, token.type == "COLON" or token.text in ("as", "is", "be", "to")) for at, token in enumerate(tokens))
+    return next((at for at, is_said in says if is_said and at > 1), None)
+
+
+def _parameters(names: Sequence[Token]) -> tuple[Token, ...] | None:
+    """Return the parameters behind a name, in parentheses; None if what stands there is something else."""
+    if not names or names[0].type not in NAMES:
+        return None
+    rest = tuple(names[1:])
+    if not rest or (rest[0].type == "LEFT" and rest[-1].type == "RIGHT"):
+        return rest
+    if any(token.type not in NAMES - {"STRING"} | {"COMMA"} for token in rest):
+        return None
+    bare = [token for token in rest if token.type != "COMMA"]
+    place = across(rest[0], rest[-1])
+    commas = [part for token in bare for part in (Token("COMMA", ",", token.span), token)]
+    return (Token("LEFT", "(", place), *commas[1:], Token("RIGHT", ")", place))
+
+
+def _definition(
+    stuck: Stuck, word: Token | None, names: Sequence[Token], meant: Sequence[Token], sign: Span
+) -> Mistake:
+    """Say what is wrong with the head of a definition."""
+    inside = ", ".join(token.text for token in names[1:] if token.type != "COMMA")
+    is_bare = bool(inside) and names[1].type != "LEFT"
+    head = f"{names[0].text}({inside})" if is_bare else stuck.source.slice(across(names[0], names[-1]))
+    right = f"let {head} ="
+    whole = Span(stuck.tokens[0].span.start, sign.end)
+    if is_bare:
+        message, span = "the parameters of a definition stand in parentheses", across(names[1], names[-1])
+    elif word is None:
+        message, span = "a definition begins with `let`", across(names[0], names[-1])
+    elif word.type != "LET":
+        message, span = f"a definition begins with `let`, not with `{word.text}`", word.span
+    else:
+        message, span = "`=` stands between a name and what it is to mean", sign
+    fix = Fix(whole, right, safe=not is_bare)
+    return mistake("MS010", message, span, f"write `{right} ...`", fix, meant=tuple(meant))
 
 
 def name_missing(stuck: Stuck) -> Mistake | None:
@@ -93,7 +171,9 @@ def weight_not_whole(stuck: Stuck) -> Mistake | None:
     number = stuck.token(0)
     if number is None or number.type != "DECIMAL" or stuck.at or stuck.type(1) != "COLON":
         return None
-    advice = "weights count against each other: `3: ... | 2: ...` is as 1.5 to 1"
+    ratio = Fraction(number.text).limit_denominator(100)
+    here, others = f"`{ratio.numerator}:` here", f"`{ratio.denominator}:` where 1 is meant"
+    advice = f"weights count against each other: write {here}, and {others}"
     return mistake("MS010", f"the weight of a branch is a whole number, found `{number.text}`", number.span, advice)
 
 

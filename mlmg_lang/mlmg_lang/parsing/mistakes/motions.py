@@ -125,13 +125,19 @@ def after_the_end(stuck: Stuck) -> Mistake | None:
 
 
 def lone_number(stuck: Stuck) -> Mistake | None:
-    """`WALK 3`."""
+    """`WALK 3`, `Idle 01`."""
     number, before = stuck.token(0), stuck.token(-1)
     if number is None or number.type not in NUMBERS or before is None or before.type not in NAMES:
         return None
     if "FOR" not in stuck.accepts:
         return None
-    advice = f"a duration is written `for {number.text} sec`"
-    if before.type != "STRING":
-        advice += f'; a name with a space in it, `"{before.text} {number.text}"`'
-    return mistake("MS010", f"`{number.text}` cannot follow a name", number.span, advice)
+    if number.type == "INTEGER" and number.text.startswith("0") and before.type == "NAME":
+        right = f"{before.text}_{number.text}"
+        span = across(before, number)
+        meant = replaced(stuck, stuck.at - 1, Token("NAME", right, span), n=2)
+        message = f"`{before.text} {number.text}` is no name: there is a space in it"
+        return mistake("MS010", message, span, f"write `{right}`", Fix(span, right, safe=False), meant=meant)
+    right = f"for {number.text} sec"
+    fix = Fix(number.span, right, safe=False)
+    return mistake("MS010", f"`{number.text}` cannot follow a name", number.span,
+                   f"for how long it is played, write `{right}`", fix, meant=stuck.tokens[: stuck.at])  # fmt: skip

@@ -24,19 +24,13 @@ _MEANT: Final[Mapping[str, tuple[str, str]]] = MappingProxyType(
 )
 """Signs of other languages: the token that they stand for, and how it is written."""
 
-_COMMENTS: Final = ("//", "--", "/*")
-"""What comments begin with in other languages."""
-_LATER: Final = ("->", "=>", ">", ">>")
+_LATER: Final = ("->", "=>", ">", ">>", "-->", "\u2192", "\u21d2", "\u27f6")
 """What leads from one thing to the next in other languages."""
 
 _ELSEWHERE: Final[Mapping[str, tuple[str, str]]] = MappingProxyType(
     {
         "BAR": ("`|` stands between the branches of `choose { }` alone", "for one or the other, write `or`"),
         "EQUALS": ("`=` stands in a definition alone", "write `let NAME = ...`"),
-        "COMMA": (
-            "`,` stands between arguments alone",
-            "join motions by `with`, `and` or `or`, and put `|` between branches",
-        ),
         "COLON": (
             "`:` stands after the weight of a branch alone",
             "weights are whole numbers in `choose { }`",
@@ -84,15 +78,11 @@ def stray_character(stuck: Stuck) -> Mistake | None:
 
 def _other_language(stuck: Stuck, message: str, token: Token) -> Mistake | None:
     """Tell how it is written here what other languages, or sentences, write with a sign."""
-    if token.text in _COMMENTS and (stuck.at == 0 or token.span.start > stuck.tokens[stuck.at - 1].span.end):
-        meant = stuck.tokens[: stuck.at]
-        return mistake("MS003", message, token.span, "a comment begins with `#`", Fix(token.span, "#", safe=False),
-                       meant=meant)  # fmt: skip
     if token.text in _LATER:
         advice = "what is played later stands on a line of its own, or after `;`"
         return mistake("MS003", message, token.span, advice, Fix(token.span, ";", safe=False))
     if token.text in (".", "!", "?") and stuck.left == 1 and stuck.at:
-        fix = Fix(token.span, "", safe=False)
+        fix = Fix(token.span, "", safe=True)
         return mistake("MS003", message, token.span, "take it out", fix, meant=replaced(stuck, stuck.at))
     if token.text in ("'", "`"):
         return mistake("MS003", message, token.span, 'a name is quoted with `"`')
@@ -108,6 +98,10 @@ def _part_of_name(stuck: Stuck, message: str, token: Token) -> Mistake | None:
     if after is not None and after.type in NAMES | NUMBERS and after.span.start == token.span.end:
         last = after
     span = across(before, last)
+    if set(token.text) == {"-"} and last is not token:
+        right = f"{before.text}-{last.text}"
+        meant = replaced(stuck, stuck.at - 1, Token("NAME", right, span), n=3)
+        return mistake("MS003", message, token.span, f"write `{right}`", Fix(token.span, "-", safe=False), meant=meant)
     quoted = f'"{stuck.source.slice(span)}"'
     if not token.text.isprintable() or "\\" in quoted or last.type == "STRING":
         return None
@@ -121,12 +115,29 @@ def _part_of_name(stuck: Stuck, message: str, token: Token) -> Mistake | None:
 def stray_sign(stuck: Stuck) -> Mistake | None:
     """`|`, `=`, `:` and `,` where they have no business."""
     token = stuck.token(0)
+    if token is not None and token.type == "COMMA":
+        return _comma(stuck, token)
     if token is None or token.type not in _ELSEWHERE:
         return None
     if token.type == "EQUALS" and stuck.tokens[0].type == "LET":
         return None
     message, advice = _ELSEWHERE[token.type]
-    if token.type in ("COMMA", "COLON") and stuck.left == 1 and stuck.at:
+    if token.type == "COLON" and stuck.left == 1 and stuck.at:
         fix = Fix(token.span, "", safe=False)
         return mistake("MS010", message, token.span, "take it out", fix, meant=replaced(stuck, stuck.at))
     return mistake("MS010", message, token.span, advice)
+
+
+def _comma(stuck: Stuck, token: Token) -> Mistake:
+    """Say what `WALK, IDLE` is, and `choose { WALK, IDLE }`."""
+    message = "`,` stands between arguments alone"
+    if stuck.left == 1 and stuck.at:
+        fix = Fix(token.span, "", safe=True)
+        return mistake("MS010", message, token.span, "take it out", fix, meant=replaced(stuck, stuck.at))
+    before = stuck.tokens[: stuck.at]
+    if stuck.in_choose:
+        fix = Fix(token.span, " |", safe=False)
+        return mistake("MS010", message, token.span, "branches are separated by `|`", fix, meant=before)
+    advice = "for one after the other, write `;` or a new line; for both at once, `with`"
+    fixes = (Fix(token.span, ";", safe=False),) if {"$END", "WITH"} & stuck.accepts else ()
+    return mistake("MS010", message, token.span, advice, *fixes, meant=before if fixes else None)

@@ -4,16 +4,22 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import Final
 
 from mlmg_grammar import reserved_words
 from mlmg_lang.diagnostics import Fix
 from mlmg_lang.parsing.amounts import UNITS
 from mlmg_lang.parsing.build_syntax import motion_script
+from mlmg_lang.parsing.foreign import MEANT, NEXT
+from mlmg_lang.parsing.foreign import NUMBERS as IN_WORDS
 from mlmg_lang.parsing.line_parser import Stuck
 from mlmg_lang.parsing.mistakes.mistake import Mistake, across, found, gets_further, mistake, replaced
 from mlmg_lang.parsing.tokens import JOINERS, NUMBERS, Token
 from mlmg_lang.source import Span
 from mlmg_lang.spelling import is_slip_of, listed
+
+_BEGIN: Final = frozenset({"let", "use", "repeat", "choose", "wait", "end"})
+"""Words that begin a statement."""
 
 
 def wrong_case(stuck: Stuck) -> Mistake | None:
@@ -77,6 +83,37 @@ def misspelt_word(stuck: Stuck) -> Mistake | None:
     return None
 
 
+def comes_next(stuck: Stuck) -> Mistake | None:
+    """`WALK for 3 sec then IDLE`, `WALK, then IDLE`."""
+    near = range(max(stuck.at - 1, 0), min(stuck.at + 2, len(stuck.tokens)))
+    at = next((at for at in near if stuck.tokens[at].type == "NAME" and stuck.tokens[at].text.lower() in NEXT), None)
+    if at is None or stuck.tokens[0].type == "LET":
+        return None
+    word, before = stuck.tokens[at], list(stuck.tokens[:at])
+    while before and before[-1].type in ("COMMA", "AND", "WITH"):
+        before.pop()
+    message = f"`{word.text}` is not a word of the language"
+    advice = "what is played later stands on a line of its own, or after `;`"
+    if not before or word.text.lower() not in ("then", "next", "afterwards"):
+        return mistake("MS019", message, word.span, advice, meant=tuple(before))
+    fix = Fix(Span(before[-1].span.end, word.span.end), ";", safe=False)
+    return mistake("MS019", message, word.span, advice, fix, meant=tuple(before))
+
+
+def word_of_other_languages(stuck: Stuck) -> Mistake | None:
+    """`sleep 3 sec`, `import "gestures.ms"`, `WALK during 3 sec`, `WALK while Upper-Body TALK`."""
+    words = reserved_words(motion_script())
+    for at in range(min(stuck.at, len(stuck.tokens) - 1), max(stuck.at - 3, -1), -1):
+        token = stuck.tokens[at]
+        for word in MEANT.get(token.text, ()) if token.type == "NAME" else ():
+            meant = replaced(stuck, at, replace(token, type=words[word], text=word))
+            if (at == 0) == (word in _BEGIN) and gets_further(stuck, meant):
+                fix = Fix(token.span, word, safe=False)
+                message = f"`{token.text}` is not a word of the language"
+                return mistake("MS019", message, token.span, f"write `{word}`", fix, meant=meant)
+    return None
+
+
 def space_missing(stuck: Stuck) -> Mistake | None:
     """`WALK for10 sec`."""
     for at in range(min(stuck.at, len(stuck.tokens) - 1), max(stuck.at - 2, -1), -1):
@@ -117,8 +154,7 @@ def head_without_body(stuck: Stuck) -> Mistake | None:
     if first.type == "REPEAT":
         advice = "write `repeat 3 { ... }`"
         if "INTEGER" in stuck.accepts:
-            message = f"`repeat` needs a whole number after it{f', found {found(stuck)}' if stuck.left else ''}"
-            return mistake("MS010", message, stuck.span, advice)
+            return _count_missing(stuck)
         message = f"`repeat {stuck.tokens[1].text}` is followed by its statements in `{{ }}`, found {found(stuck)}"
         return mistake("MS013", message, stuck.span, advice)
     if first.type == "CHOOSE":
@@ -126,3 +162,18 @@ def head_without_body(stuck: Stuck) -> Mistake | None:
         message = f"`choose` is followed by its branches in `{{ }}`, found {found(stuck)}"
         return mistake("MS013", message, stuck.span, advice)
     return None
+
+
+def _count_missing(stuck: Stuck) -> Mistake:
+    """Say what is missing in `repeat {`, `repeat 2.5 {`, `repeat twice {`."""
+    number = stuck.token(0)
+    if number is None:
+        message = "`repeat` needs a number after it: how often"
+        return mistake("MS010", message, stuck.tokens[0].span, "write `repeat 3 { ... }`")
+    message = f"`repeat` needs a whole number after it, found `{number.text}`"
+    count = IN_WORDS.get(number.text.lower(), number.text.removesuffix(".0"))
+    if not count.isdigit() or stuck.left > 1:
+        return mistake("MS010", message, number.span, "write `repeat 3 { ... }`")
+    meant = replaced(stuck, stuck.at, replace(number, type="INTEGER", text=count))
+    fix = Fix(number.span, count, safe=True)
+    return mistake("MS010", message, number.span, f"write `repeat {count} {{ ... }}`", fix, meant=meant)

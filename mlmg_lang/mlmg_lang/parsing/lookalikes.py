@@ -1,0 +1,231 @@
+"""What only looks like signs and comments of the language -> the tokens that were meant, and what is wrong with them.
+
+Keyboards for Chinese and Japanese write wide signs and digits, editors for prose make a dash of a hyphen, and other
+languages have other comments. All of it would be parts of names, or strange signs in the midst of statements; told
+apart before a script is cut into lines, it is one mistake each.
+"""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+from bisect import bisect_right
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
+from types import MappingProxyType
+from typing import Final
+
+from mlmg_grammar import is_name, reserved_words, scan
+from mlmg_lang.diagnostics import Diagnostic, Fix
+from mlmg_lang.parsing.amounts import UNITS
+from mlmg_lang.parsing.build_syntax import motion_script
+from mlmg_lang.parsing.tokens import Token
+from mlmg_lang.source import Source, Span
+from mlmg_lang.spelling import listed
+
+_SIGNS: Final[Mapping[str, str]] = MappingProxyType(
+    {chr(0xFEE0 + ord(sign)): sign for sign in "(){}|;:,=#.!?&+/*-[]"}
+    | dict.fromkeys("\u2010\u2011\u2012\u2013\u2014\u2015\u2212\ufe58\ufe63", "-")
+    | dict.fromkeys("\u3001\uff64\u060c", ",")
+    | dict.fromkeys("\u3002\uff61\u061b\u037e\u2026", ";")
+)
+"""Signs of other keyboards, and those of the language that they look like, or stand for."""
+_ODD: Final = re.compile(f"[{''.join(map(re.escape, _SIGNS))}]")
+_WORD: Final = re.compile(r"\w+")
+_OPENS: Final = ("//", "--", "/*")
+"""What comments begin with in other languages; the last goes on to `*/`."""
+
+
+def as_meant(tokens: Sequence[Token]) -> Sequence[Token]:
+    """Return tokens with signs that only look like those of the language read as those, and without other comments."""
+    return _without_comments(_narrowed(tokens))
+
+
+def lookalikes(tokens: Sequence[Token], source: Source) -> Iterator[Diagnostic]:
+    """Yield what is wrong with such signs, once a line, and with such comments, each once."""
+    narrow = _narrowed(tokens)
+    comments = [Span(narrow[first].span.start, narrow[last].span.end) for first, last in _comments(narrow)]
+    if narrow is not tokens:
+        for line in _odd_lines(tokens):
+            odd = [token for token in line if not _is_inside(token.span, comments)]
+            if odd:
+                yield _wide(odd, source)
+    for comment in comments:
+        yield _comment(comment, source)
+
+
+def _is_inside(span: Span, others: Sequence[Span]) -> bool:
+    """Return whether a span lies in one of others, which are in the order of the text."""
+    at = bisect_right(others, span.start, key=lambda other: other.start) - 1
+    return at >= 0 and span.start < others[at].end
+
+
+# --- signs -----------------------------------------------------------------------------------------------
+
+
+def _narrowed(tokens: Sequence[Token]) -> Sequence[Token]:
+    """Return tokens with those cut anew that hold signs of other keyboards; the very same if there are none."""
+    if not any(_is_odd(token) or _is_sign(token) for token in tokens):
+        return tokens
+    found: list[Token] = []
+    in_comment = False
+    for token in tokens:
+        in_comment = in_comment and token.type != "NEWLINE"
+        if in_comment:
+            continue
+        parts = list(_cut(token)) if _is_odd(token) else [replace(token, type="UNKNOWN") if _is_sign(token) else token]
+        in_comment = parts[-1].type == "COMMENT"
+        found += parts
+    return found
+
+
+def _is_odd(token: Token) -> bool:
+    return token.type == "NAME" and not token.text.isascii() and _narrow(token.text) != token.text
+
+
+def _is_sign(token: Token) -> bool:
+    """Return whether what was taken for a name is nothing but arrows and signs of mathematics."""
+    return (
+        token.type == "NAME" and not token.text.isascii() and all(unicodedata.category(c) == "Sm" for c in token.text)
+    )
+
+
+def _cut(token: Token) -> Iterator[Token]:
+    for piece in scan(motion_script(), _narrow(token.text)):
+        assert piece.start_pos is not None
+        start = token.span.start + piece.start_pos
+        if piece.type != "SPACE":
+            yield Token(piece.type, str(piece), Span(start, start + len(piece)))
+
+
+def _narrow(text: str) -> str:
+    """Return a name with what is no part of a name as the language writes it, character for character."""
+    if is_name(text):
+        return _narrow_word(text)
+    return _WORD.sub(lambda word: _narrow_word(word[0]), "".join(_SIGNS.get(letter, letter) for letter in text))
+
+
+def _narrow_word(word: str) -> str:
+    """Return a word in ASCII if it would be a number or a word of the language then."""
+    plain = "".join(_plain(letter) for letter in word)
+    is_word = plain in UNITS or plain in reserved_words(motion_script())
+    return plain if plain != word and (is_word or plain[0].isdigit()) else word
+
+
+def _plain(letter: str) -> str:
+    digit = unicodedata.decimal(letter, None)
+    if digit is not None:
+        return str(digit)
+    return chr(ord(letter) - 0xFEE0) if "\uff21" <= letter <= "\uff5a" else letter
+
+
+def _odd_lines(tokens: Sequence[Token]) -> Iterator[list[Token]]:
+    """Yield the tokens with such signs, those of a line together, but not what stands in a comment then."""
+    line: list[Token] = []
+    for token in tokens:
+        if token.type == "NEWLINE" and line:
+            yield line
+            line = []
+        elif _is_odd(token) and not (line and "#" in _narrow(line[-1].text)):
+            line.append(token)
+    if line:
+        yield line
+
+
+def _wide(tokens: Sequence[Token], source: Source) -> Diagnostic:
+    """Say what is wrong with the signs of a line."""
+    changes = [change for token in tokens for change in _changes(token)]
+    wrong = list(dict.fromkeys((source.slice(span), plain) for span, plain in changes))
+    span = Span(changes[0][0].start, changes[-1][0].end)
+    pieces, end = [], span.start
+    for place, plain in changes:
+        pieces += [source.slice(Span(end, place.start)), plain]
+        end = place.end
+    right = listed(dict.fromkeys(plain for _, plain in wrong))
+    one = len(wrong) == 1
+    message = (
+        f"{listed(sign for sign, _ in wrong)} {'is' if one else 'are'} not the "
+        f"{right} of Motion Script, but {'another character' if one else 'other characters'}"
+    )
+    return Diagnostic("MS003", message, span, f"write {right}", fixes=(Fix(span, "".join(pieces), safe=True),))
+
+
+def _changes(token: Token) -> Iterator[tuple[Span, str]]:
+    """Yield the stretches of a name that have to be written otherwise."""
+    narrow = _narrow(token.text)
+    narrow = narrow[: narrow.find("#") + 1] or narrow
+    at = 0
+    while at < len(narrow):
+        end = at + 1
+        if narrow[at] != token.text[at]:
+            while end < len(narrow) and narrow[at].isalnum() and narrow[end].isalnum():
+                end += 1
+            yield Span(token.span.start + at, token.span.start + end), narrow[at:end]
+        at = end
+
+
+# --- comments --------------------------------------------------------------------------------------------
+
+
+def _without_comments(tokens: Sequence[Token]) -> Sequence[Token]:
+    kept: list[Token] = []
+    end = 0
+    for first, last in _comments(tokens):
+        kept += tokens[end:first]
+        end = last + 1
+    return [*kept, *tokens[end:]] if end else tokens
+
+
+def _comments(tokens: Sequence[Token]) -> Iterator[tuple[int, int]]:
+    """Yield where a comment of another language begins and ends, as the indices of its first and last token."""
+    last = -1
+    for at in [at for at, token in enumerate(tokens) if token.type == "UNKNOWN"]:
+        if at > last and _opens(tokens, at):
+            last = _end_of_comment(tokens, at)
+            yield at, last
+
+
+def _opens(tokens: Sequence[Token], at: int) -> bool:
+    text, before = tokens[at].text, tokens[at - 1] if at else None
+    if not text.startswith(_OPENS):
+        return False
+    return before is None or before.type == "NEWLINE" or before.span.end < tokens[at].span.start
+
+
+def _end_of_comment(tokens: Sequence[Token], first: int) -> int:
+    last = first
+    while last + 1 < len(tokens) and tokens[last + 1].type != "NEWLINE":
+        last += 1
+    if not tokens[first].text.startswith("/*"):
+        return last
+    rest = enumerate(tokens[first:], start=first)
+    closing = (
+        at for at, token in rest if token.type == "UNKNOWN" and token.text.endswith("*/") and token.text != "/*/"
+    )
+    return next(closing, last)
+
+
+def _comment(span: Span, source: Source) -> Diagnostic:
+    """Say how comments are written."""
+    text = source.slice(span)
+    sign = text[:2]
+    is_closed = sign == "/*" and text.endswith("*/")
+    inside = text[2:-2] if is_closed else text[2:]
+    right = re.sub(r"(\r\n|\r|\n)[ \t]*\*?", r"\1#", f"#{inside.rstrip()}")
+    file, base = source.file(span.start)
+    goes_on = is_closed and re.match(r"[^\S\r\n]*[^\s#]", file.text[span.end - base :]) is not None
+    fixes = () if goes_on else (Fix(span, right, safe=True, name="write it behind `#`"),)
+    place = Span(span.start, span.start + 2)
+    advice = "a comment begins with `#`" + (" and goes to the end of the line" if goes_on or is_closed else "")
+    return Diagnostic("MS003", f"`{sign}` means nothing in Motion Script", place, advice, fixes=fixes)
+
+
+def opens_or_closes(tokens: Sequence[Token]) -> bool:
+    """Return whether there is a sign that could make a comment of other lines."""
+    return any(token.type == "UNKNOWN" and ("/*" in token.text or "*/" in token.text) for token in tokens)
+
+
+def has_other_comments(tokens: Sequence[Token]) -> bool:
+    """Return whether some of the tokens are meant to be comments, and are none."""
+    narrow = _narrowed(tokens)
+    return any(_comments(narrow)) or any(token.type == "NAME" and "#" in _narrow(token.text) for token in tokens)

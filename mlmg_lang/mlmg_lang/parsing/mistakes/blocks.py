@@ -1,0 +1,38 @@
+"""Mistakes in what stands before `{`: the words of other languages for `repeat`, `choose` and `let`."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from mlmg_lang.diagnostics import Fix
+from mlmg_lang.parsing.foreign import MEANT, NUMBERS
+from mlmg_lang.parsing.mistakes.mistake import Mistake, across, mistake
+from mlmg_lang.parsing.tokens import NAMES, Token
+from mlmg_lang.source import Span
+
+_HAVE: str = "only `repeat` and `choose` are followed by `{`"
+
+
+def other_head(head: Sequence[Token], brace: Span) -> Mistake | None:
+    """`loop 3 {`, `3 times {`, `random {`, `function GREET() {`; None where nothing of the kind stands there."""
+    words = {word for token in head if token.type == "NAME" for word in MEANT.get(token.text.lower(), ())}
+    if head[0].type == "LET" or "let" in words:
+        name = next((token.text for token in head[1:] if token.type in NAMES), "NAME")
+        advice = f"write `let {name} = ...`, for each command one"
+        return mistake("MS013", "a definition stands for one command, without braces", brace, advice)
+    if "choose" in words:
+        return _instead(head, "choose", Token("CHOOSE", "choose", across(head[0], head[-1])))
+    count = next((token.text for token in head if token.type == "INTEGER"), None)
+    if count is None:
+        count = next((NUMBERS[token.text.lower()] for token in head if token.text.lower() in NUMBERS), None)
+    if "repeat" not in words and (count is None or head[0].type not in ("INTEGER", "FOR")):
+        return None
+    if count is None or not count.isdigit():
+        return mistake("MS013", _HAVE, across(head[0], head[-1]), "write how often, as in `repeat 3 { ... }`")
+    span = across(head[0], head[-1])
+    return _instead(head, f"repeat {count}", Token("REPEAT", "repeat", span), Token("INTEGER", count, span))
+
+
+def _instead(head: Sequence[Token], right: str, *meant: Token) -> Mistake:
+    span = across(head[0], head[-1])
+    return mistake("MS013", _HAVE, span, f"write `{right} {{ ... }}`", Fix(span, right, safe=False), meant=meant)
