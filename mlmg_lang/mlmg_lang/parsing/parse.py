@@ -45,13 +45,13 @@ def parse(source: Source, tokens: Sequence[Token], base: int = 0) -> Parsed:
     """
     reader = _Reader(source)
     reader.diagnostics += islice(lookalikes(tokens, source), MAX_MISTAKES)
-    is_cut_off = len(tokens) == MAX_TOKENS
+    last = tokens[-1] if len(tokens) == MAX_TOKENS else None
     tokens = join_quoted(as_meant(tokens), source)
     layout = lay_out(tokens)
     reader.diagnostics += [*check_tokens(tokens), *layout.diagnostics]
     del reader.diagnostics[MAX_MISTAKES:]
-    if is_cut_off:
-        reader.cut_off(tokens[-1])
+    if last is not None:
+        reader.cut_off(last)
     items = reader.items(layout.items)
     span = Span(base, base + len(source.file(base)[0].text))
     return Parsed(syntax.Script(items, span), tuple(reader.diagnostics))
