@@ -49,8 +49,12 @@ def compile(
     return look_ahead(analysis.resolved, library).plan, analysis.diagnostics
 
 
-def play(plan: ResolvedPlan, library: Library, seed: int = 0) -> Performance:
+def play(plan: ResolvedPlan, library: Library, seed: int = 0, feet: bool = True) -> Performance:
     """Play a plan on the library that it was compiled against; the same inputs always give the same frames.
+
+    Parameters
+    ----------
+    seed : of what is drawn by chance. feet : whether planted feet are kept from sliding in transitions.
 
     Raises
     ------
@@ -59,4 +63,4 @@ def play(plan: ResolvedPlan, library: Library, seed: int = 0) -> Performance:
     """
     from mlmg_lang.perform import perform
 
-    return perform(plan, library, seed)
+    return perform(plan, library, seed, feet=feet)

@@ -62,6 +62,7 @@ def perform(
     seed: int = 0,
     frame_rate: float | None = None,
     blend: str | None = None,
+    feet: bool = True,
 ) -> Performance:
     """Play a plan on the library that it was resolved against.
 
@@ -70,6 +71,7 @@ def perform(
     seed : of what `choose` draws; the same plan, library and seed always give the same frames.
     frame_rate : of the motion, frames a second; None for the library's.
     blend : "c1" or "linear", for all transitions; None for what each graph was configured with.
+    feet : whether planted feet are kept from sliding in transitions.
 
     Raises
     ------
@@ -78,7 +80,7 @@ def perform(
     """
     rehearsal = rehearse(plan, library, seed)
     timeline = rehearsal.timeline
-    poses = synthesize(library, timeline, blend)
+    poses = synthesize(library, timeline, blend, feet)
     rate = frame_rate or library.frame_rate
     poses = resample(poses, library.frame_rate, rate)
     ratio = 1.0 if same_rate(library.frame_rate, rate) else rate / library.frame_rate

@@ -50,6 +50,21 @@ def about_axis(axis: str, angle_rad: FloatArray) -> FloatArray:
     return q
 
 
+def about(axis: FloatArray, angle_rad: FloatArray) -> FloatArray:
+    """Return rotations about any axes, shape (..., 3), not of length 0, by angles of shape (...)."""
+    unit = axis / np.linalg.norm(axis, axis=-1, keepdims=True)
+    half = 0.5 * angle_rad[..., None]
+    return np.concatenate((np.cos(half), np.sin(half) * unit), axis=-1)
+
+
+def between(a: FloatArray, b: FloatArray) -> FloatArray:
+    """Return the smallest rotations that turn `a` to where `b` points, shapes (..., 3); not for opposite ones."""
+    a = a / np.linalg.norm(a, axis=-1, keepdims=True)
+    b = b / np.linalg.norm(b, axis=-1, keepdims=True)
+    w = np.maximum(1.0 + np.sum(a * b, axis=-1, keepdims=True), 1e-12)
+    return normalized(np.concatenate((w, np.cross(a, b)), axis=-1))
+
+
 def from_euler(order: str, angles_rad: FloatArray) -> FloatArray:
     """Return R = R_1 R_2 ... (intrinsic, as BVH channels mean it) for angles of shape (..., len(order)).
 

@@ -87,6 +87,9 @@ def argument_parser() -> argparse.ArgumentParser:
     parser.add_argument(
         "--blend", choices=("c1", "linear"), help="how transitions are weighted; as the library is configured"
     )
+    parser.add_argument(
+        "--no-feet", dest="feet", action="store_false", help="let planted feet slide where motions are blended"
+    )
     add_use_option(parser)
     parser.add_argument("--watch", action="store_true", help="play again at every save, until Ctrl-C")
     parser.add_argument("--version", action=VersionAction, nargs=0, help="show the version and leave")
@@ -174,7 +177,7 @@ def _play(arguments: argparse.Namespace, inputs: Inputs, libraries: Libraries, s
     from mlmg_lang.perform import perform
 
     plan = _ahead(analysis.resolved, library) if arguments.plan == "global" else analysis.resolved
-    performance = perform(plan, library, arguments.seed, arguments.fps, arguments.blend)
+    performance = perform(plan, library, arguments.seed, arguments.fps, arguments.blend, arguments.feet)
     _write(performance, arguments.output, arguments.report)
     if arguments.output != "-":
         sum_up(f"{arguments.output}: {_summary(performance.report)}")

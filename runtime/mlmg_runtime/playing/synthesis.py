@@ -10,11 +10,14 @@ import numpy as np
 from mlmg_runtime import rotations
 from mlmg_runtime.arrays import FloatArray, IntArray
 from mlmg_runtime.blending import WEIGHTS
+from mlmg_runtime.feet import find_plants
+from mlmg_runtime.legs import find_legs
 from mlmg_runtime.library import Library
 from mlmg_runtime.motion_graph import MotionGraph, Position
+from mlmg_runtime.playing.foot_locking import Sources, Windows, lock_feet
 from mlmg_runtime.playing.timeline import Blend, Clip, Segment, Timeline
 from mlmg_runtime.point_cloud import GroundTransform, best_fit
-from mlmg_runtime.skeleton import Poses, world_positions
+from mlmg_runtime.skeleton import Poses, world_positions, world_transforms
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -29,6 +32,11 @@ class _Pool:
         """Return the rows of `n_output` frames from a position on; past its end a clip stands still."""
         rows = self.first_row[first.motion] + first.frame + speed * np.arange(n_output)
         return np.asarray(np.minimum(rows, self.last_row[first.motion]))
+
+    def rows_around(self, first: Position, n_output: int) -> IntArray:
+        """Return the rows of the frame before a position and of `n_output` frames from it on, none outside the clip."""
+        rows = self.first_row[first.motion] + first.frame + np.arange(-1, n_output)
+        return np.clip(rows, self.first_row[first.motion], self.last_row[first.motion])
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -51,7 +59,7 @@ class _Score:
     target_rows: FloatArray
 
 
-def synthesize(library: Library, timeline: Timeline, blend: str | None = None) -> Poses:
+def synthesize(library: Library, timeline: Timeline, blend: str | None = None, feet: bool = True) -> Poses:
     """Return the poses of a timeline, one an output frame; y up, the library's length unit.
 
     Each transition is aligned to where the character is and carried on, so that it walks on from there. A graph that
@@ -60,15 +68,16 @@ def synthesize(library: Library, timeline: Timeline, blend: str | None = None) -
     Parameters
     ----------
     blend : "c1" or "linear"; None for what each graph was configured with.
+    feet : whether planted feet are kept from sliding in transitions of the whole body; other frames have their clips'.
     """
     root, *parts = (library.by_name[graph] for graph in timeline.tracks)
-    poses = _whole_body(library, root, timeline, blend or root.blend)
+    poses = _whole_body(library, root, timeline, blend or root.blend, feet)
     for graph in parts:
         _lay_over(library, graph, timeline, blend or graph.blend, poses)
     return poses
 
 
-def _whole_body(library: Library, graph: MotionGraph, timeline: Timeline, blend: str) -> Poses:
+def _whole_body(library: Library, graph: MotionGraph, timeline: Timeline, blend: str, feet: bool) -> Poses:
     segments = timeline.tracks[graph.name]
     pool = _pool(library, graph, segments)
     score = _score(segments, pool, timeline.n_frames, WEIGHTS[blend])
@@ -82,7 +91,41 @@ def _whole_body(library: Library, graph: MotionGraph, timeline: Timeline, blend:
         starts = _starts(score.segment[at])
         shown.rotations[at] = rotations.slerp_movements(shown.rotations[at], goal.rotations, share, starts)
         shown.positions[at] += share[:, None, None] * (goal.positions - shown.positions[at])
+        if feet:
+            blended = Poses(shown.rotations[at], shown.positions[at])
+            _keep_feet(library, segments, pool, (source, target), blend, blended, timeline.n_frames)
+            shown.rotations[at] = blended.rotations
     return shown
+
+
+def _keep_feet(
+    library: Library,
+    segments: Sequence[Segment],
+    pool: _Pool,
+    placements: tuple[GroundTransform, GroundTransform],
+    blend: str,
+    blended: Poses,
+    n_frames: int,
+) -> None:
+    """Keep planted feet from sliding, in place, in all frames that are blended."""
+    legs = find_legs(library.skeleton, pool.poses)
+    if not legs:
+        return
+    numbers = [number for number, segment in enumerate(segments) if isinstance(segment, Blend)]
+    begins = np.array([segments[number].begin for number in numbers])
+    length = segments[numbers[0]].end - segments[numbers[0]].begin
+    firsts = zip(*(_windows(segment) for segment in segments if isinstance(segment, Blend)), strict=True)
+    left, entered = (
+        Windows(np.stack([pool.rows_around(first, length) for first in each]), _of_each(ground, np.array(numbers)))
+        for each, ground in zip(firsts, placements, strict=True)
+    )
+    turned, places = world_transforms(library.skeleton, pool.poses)
+    clips = [places[first : pool.last_row[motion] + 1] for motion, first in pool.first_row.items()]
+    planted = np.concatenate([find_plants(clip, legs, library.frame_rate) for clip in clips])
+    sources = Sources(pool.poses.rotations, turned, places, planted)
+    body = WEIGHTS[blend](np.arange(length + 1) / length)
+    is_shown = begins[:, None] + np.arange(length) < n_frames
+    lock_feet(library.skeleton, legs, sources, (left, entered), body, blended, is_shown)
 
 
 def _lay_over(library: Library, graph: MotionGraph, timeline: Timeline, blend: str, poses: Poses) -> None:
@@ -152,7 +195,13 @@ def _score(
 def _target_rows(blend: Blend, pool: _Pool, length: int) -> FloatArray:
     if blend.target is None:
         return np.full(length, np.nan)
-    return pool.rows(Position(blend.target.motion, blend.target.frame - length + 1), length, 1.0)
+    return pool.rows(_windows(blend)[1], length, 1.0)
+
+
+def _windows(blend: Blend) -> tuple[Position, Position]:
+    """Return where the two windows begin that a blend leads between."""
+    assert blend.target is not None
+    return blend.source, Position(blend.target.motion, blend.target.frame - (blend.end - blend.begin) + 1)
 
 
 def _sampled(poses: Poses, rows: FloatArray) -> Poses:

@@ -7,8 +7,8 @@ from dataclasses import replace
 import numpy as np
 
 from mlmg_runtime import rotations
+from mlmg_runtime.anatomy import Anatomy, upper_joint
 from mlmg_runtime.arrays import BoolArray, FloatArray
-from mlmg_runtime.view.anatomy import Anatomy, upper_joint
 from mlmg_runtime.view.points import Points
 
 _GROUND = np.array([1.0, 0.0, 1.0])

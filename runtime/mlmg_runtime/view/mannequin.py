@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mlmg_runtime.view.anatomy import Anatomy, upper_joint
+from mlmg_runtime.anatomy import Anatomy, upper_joint
 from mlmg_runtime.view.points import Points
 
 BODY_HEIGHT = 1.7

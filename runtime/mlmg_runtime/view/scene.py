@@ -8,12 +8,12 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from mlmg_runtime.anatomy import anatomy_from_points
 from mlmg_runtime.arrays import FloatArray
 from mlmg_runtime.bvh.document import Bvh
 from mlmg_runtime.clips import poses_from_bvh, skeleton_from_bvh
 from mlmg_runtime.skeleton import Skeleton, world_transforms
 from mlmg_runtime.view import landmarks
-from mlmg_runtime.view.anatomy import anatomy_from_points
 from mlmg_runtime.view.captions import Story
 from mlmg_runtime.view.mannequin import BODY_HEIGHT, Ball, Capsule, body_height, mannequin, skull_share
 from mlmg_runtime.view.points import Points, points_from_transforms

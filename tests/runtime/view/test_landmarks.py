@@ -1,10 +1,10 @@
 import numpy as np
 
+from mlmg_runtime.anatomy import anatomy_from_points
 from mlmg_runtime.bvh import Bvh
 from mlmg_runtime.clips import poses_from_bvh, skeleton_from_bvh
 from mlmg_runtime.skeleton import world_transforms
 from mlmg_runtime.view import landmarks
-from mlmg_runtime.view.anatomy import anatomy_from_points
 from mlmg_runtime.view.points import Points, points_from_transforms
 
 

@@ -1,9 +1,9 @@
 import numpy as np
 import pytest
 
+from mlmg_runtime.anatomy import anatomy_from_points, upper_joint
 from mlmg_runtime.clips import poses_from_bvh, skeleton_from_bvh
 from mlmg_runtime.skeleton import world_transforms
-from mlmg_runtime.view.anatomy import anatomy_from_points, upper_joint
 from mlmg_runtime.view.points import Points, points_from_transforms
 
 

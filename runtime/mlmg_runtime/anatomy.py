@@ -8,11 +8,26 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Protocol
 
-from mlmg_runtime.view.points import Points
+from mlmg_runtime.arrays import FloatArray
 
 _FULL_SHARE = 0.5  # A branch at least half as long as the longest beside it is a limb; a shorter one is an extra.
 _UPPER_SHARE = 0.8  # The first bone nearly as long as the longest is the upper arm, what comes before it the shoulder.
+
+
+class Bones(Protocol):
+    """A tree of points, joints or joints and tips, and how far each is from its parent."""
+
+    @property
+    def parents(self) -> tuple[int, ...]:
+        """Return the index of each point's parent, -1 for the root; parents stand before their children."""
+        ...
+
+    @property
+    def lengths(self) -> FloatArray:
+        """Return the distances from the parents, shape (n_points,)."""
+        ...
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,7 +64,7 @@ class Anatomy:
         return len(self.legs) == 2 and len(self.arms) == 2 and bool(self.head)
 
 
-def anatomy_from_points(points: Points, travel: int) -> Anatomy:
+def anatomy_from_points(points: Bones, travel: int) -> Anatomy:
     """Return the parts of the body that hangs below the point `travel`."""
     tree = _Tree(points)
     hips = travel
@@ -75,7 +90,7 @@ def anatomy_from_points(points: Points, travel: int) -> Anatomy:
     )
 
 
-def upper_joint(chain: tuple[int, ...], points: Points) -> int:
+def upper_joint(chain: tuple[int, ...], points: Bones) -> int:
     """Return the point of a limb where its upper bone begins: the shoulder of an arm, the hip of a leg."""
     bones = chain[1:]
     longest = max((points.lengths[bone] for bone in bones), default=0.0)
@@ -88,7 +103,7 @@ def upper_joint(chain: tuple[int, ...], points: Points) -> int:
 class _Tree:
     """What is asked of a tree of points again and again."""
 
-    def __init__(self, points: Points) -> None:
+    def __init__(self, points: Bones) -> None:
         self.lengths = points.lengths
         self.children: list[list[int]] = [[] for _ in points.parents]
         for point, parent in enumerate(points.parents):
