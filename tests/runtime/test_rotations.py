@@ -103,6 +103,24 @@ def test_no_other_one_or_two_angles_come_nearer_to_a_rotation(order: str) -> Non
     assert np.all(error <= best_of_grid + 1e-12)
 
 
+def test_turns_about_any_axis_are_those_of_scipy() -> None:
+    random = np.random.default_rng(11)
+    axis, angle_rad = random.normal(size=(50, 3)), random.uniform(-4.0, 4.0, size=50)
+    unit = axis / np.linalg.norm(axis, axis=-1, keepdims=True)
+    expected = np.roll(Rotation.from_rotvec(angle_rad[:, None] * unit).as_quat(), 1, axis=-1)
+    assert_same_rotation(rotations.about(axis, angle_rad), expected)
+
+
+def test_the_smallest_turn_between_two_ways_turns_one_to_the_other_about_what_lies_across_both() -> None:
+    random = np.random.default_rng(12)
+    a, b = random.normal(size=(2, 50, 3))
+    turn = rotations.between(a, b)
+    along = rotations.rotate(turn, a) / np.linalg.norm(a, axis=-1, keepdims=True)
+    np.testing.assert_allclose(along, b / np.linalg.norm(b, axis=-1, keepdims=True), atol=1e-12)
+    np.testing.assert_allclose(np.sum(turn[:, 1:] * a, axis=-1), 0.0, atol=1e-12)
+    assert np.all(np.isfinite(rotations.between(a, -a)))
+
+
 def test_slerp_goes_the_shortest_way_at_even_speed() -> None:
     a, b = random_rotations(30), random_rotations(30, seed=1)
     for weight in (0.0, 0.25, 0.5, 1.0):

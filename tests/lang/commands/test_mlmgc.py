@@ -8,6 +8,7 @@ import sys
 import numpy as np
 import pytest
 
+import mlmg_lang
 from mlmg_lang.commands import mlmgc
 from mlmg_runtime import bvh
 
@@ -69,6 +70,23 @@ def test_linear_blending_differs_from_c1_in_transitions_alone(scene):
     c1, linear = bvh.read(scene / "c1.bvh").frames, bvh.read(scene / "linear.bvh").frames
     np.testing.assert_array_equal(c1[: first["begin"]], linear[: first["begin"]])
     assert np.abs(c1 - linear)[first["begin"] : first["end"]].max() > 0.01
+
+
+def test_without_foot_locking_only_transitions_differ(scene, demo_library):
+    (scene / "scene.ms").write_text("Walk_01 for 1 sec\nIdle_02\n")
+    library = ["--library", str(demo_library.path)]
+    assert mlmgc.main(["scene.ms", "-o", "locked.bvh", "--report", "r.json", *library]) == 0
+    assert mlmgc.main(["scene.ms", "-o", "free.bvh", "--no-feet", *library]) == 0
+    plan, _ = mlmg_lang.compile("Walk_01 for 1 sec\nIdle_02\n", demo_library)
+    bvh.write(mlmg_lang.play(plan, demo_library, feet=False).bvh, "played.bvh")
+    assert (scene / "free.bvh").read_bytes() == (scene / "played.bvh").read_bytes()
+    locked, free = bvh.read(scene / "locked.bvh").frames, bvh.read(scene / "free.bvh").frames
+    tracks = json.loads((scene / "r.json").read_text())["tracks"]["Full-Body"]
+    is_blended = np.zeros(len(locked), dtype=bool)
+    for entry in tracks:
+        is_blended[entry["begin"] : entry["end"]] = entry["kind"] != "clip"
+    np.testing.assert_array_equal(locked[~is_blended], free[~is_blended])
+    assert np.abs(locked - free)[is_blended].max() > 0.01
 
 
 def test_start_is_where_the_character_begins(scene):
