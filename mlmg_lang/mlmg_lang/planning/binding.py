@@ -159,16 +159,14 @@ def _qualified(node: syntax.Qualified, scope: Scope) -> Iterator[Unbound]:
     name = node.motion.name
     inner = list(_motion_name(name, scope, _meant(graph, names)))
     is_known = bool(names.places(graph.text))
-    if wrong and names.graph(name.text) is not None and other_word(graph.text, "end"):
-        yield Unbound(_for_end(node))
-    elif wrong and name.quoted and other_word(graph.text, "use"):
-        yield Unbound(_for_use(graph))
-    elif wrong and graph.text.lower() in NEXT:
-        yield Unbound(_comes_next(graph))
+    if wrong and (foreign := _word_of_other_languages(node, names)) is not None:
+        yield Unbound(foreign)
     elif wrong and is_known and (swapped := _graph_meant(name, inner, names)) is not None:
         yield Unbound(_swapped(node, swapped, names))
     elif wrong and is_shouted(graph):
         yield from wrong
+    elif wrong and names.places(joint := f"{graph.text}_{name.text}"):
+        yield Unbound(_space_in_name(node, next(names.spellings_of(joint))))
     elif wrong and not inner and is_known:
         yield Unbound(_side_by_side(node, names))
     elif wrong and normal(graph.text) in scope.own:
@@ -177,8 +175,20 @@ def _qualified(node: syntax.Qualified, scope: Scope) -> Iterator[Unbound]:
         yield from inner
     elif wrong and inner and not name.quoted and is_slip_of(name.text, "once") and is_known:
         yield Unbound(_misspelt_once(name))
+    elif wrong and inner and is_known:
+        yield from inner
     else:
         yield from (*wrong, *inner)
+
+
+def _word_of_other_languages(node: syntax.Qualified, names: Names) -> Diagnostic | None:
+    """Return what to say of a word that stands elsewhere for one of the language, where a graph is expected."""
+    word, name = node.graph, node.motion.name
+    if names.graph(name.text) is not None and other_word(word.text, "end"):
+        return _for_end(node)
+    if name.quoted and other_word(word.text, "use"):
+        return _for_use(word)
+    return _comes_next(word) if word.text.lower() in NEXT else None
 
 
 def _graph_meant(name: syntax.Name, wrong: Sequence[Unbound], names: Names) -> str | None:
@@ -298,6 +308,13 @@ def _definition_as_graph(node: syntax.Qualified, let: syntax.Let) -> Diagnostic:
     right = f"{script_name(name)}({script_name(argument)})"
     fix = Fix(node.span, right, safe=len(let.parameters) == 1)
     return Diagnostic("MS025", message, node.span, f"write `{right}`", fixes=(fix,))
+
+
+def _space_in_name(node: syntax.Qualified, meant: str) -> Diagnostic:
+    """Say what `wave hand` is, where there is `WAVE_HAND`."""
+    written, right = f"{node.graph.text} {node.motion.name.text}", script_name(meant)
+    message = f"`{written}` is no name: there is a space in it"
+    return Diagnostic("MS021", message, node.span, f"write `{right}`", fixes=(Fix(node.span, right, safe=False),))
 
 
 def _for_end(node: syntax.Qualified) -> Diagnostic:

@@ -177,6 +177,18 @@ def number_in_words(stuck: Stuck) -> Mistake | None:
     return mistake("MS017", "numbers are written in digits", word.span, f"write `{digits}`", fix, meant=meant)
 
 
+def word_before_number(stuck: Stuck) -> Mistake | None:
+    """`for about 10 sec`."""
+    number, word = stuck.token(0), stuck.token(-1)
+    if number is None or number.type not in NUMBERS or word is None or word.type != "NAME":
+        return None
+    if stuck.type(-2) not in ("FOR", "WAIT"):
+        return None
+    fix = Fix(Span(word.span.start, number.span.start), "", safe=False)
+    message = "a duration is one number and one unit"
+    return mistake("MS017", message, word.span, f"take `{word.text}` out", fix, meant=replaced(stuck, stuck.at - 1))
+
+
 def for_missing(stuck: Stuck) -> Mistake | None:
     """`WALK 10 sec`."""
     number, unit = stuck.token(0), stuck.token(1)

@@ -9,7 +9,7 @@ from mlmg_lang.diagnostics import Fix
 from mlmg_lang.parsing.foreign import other_word
 from mlmg_lang.parsing.line_parser import Stuck
 from mlmg_lang.parsing.mistakes.mistake import Mistake, across, found, gets_further, mistake, replaced
-from mlmg_lang.parsing.tokens import NAMES, Token
+from mlmg_lang.parsing.tokens import NAMES, NUMBERS, Token
 from mlmg_lang.source import Span
 
 
@@ -139,6 +139,17 @@ def meaning_missing(stuck: Stuck) -> Mistake | None:
     if stuck.left or stuck.tokens[0].type != "LET" or stuck.type(-1) != "EQUALS":
         return None
     return _no_meaning(stuck, f"write it behind `=`, as in `{_text(stuck)} WALK`")
+
+
+def number_defined(stuck: Stuck) -> Mistake | None:
+    """`let pause = 3 sec`."""
+    number = stuck.token(0)
+    if number is None or number.type not in NUMBERS or stuck.tokens[0].type != "LET" or stuck.type(-1) != "EQUALS":
+        return None
+    if "NOT" not in stuck.accepts:
+        return None
+    advice = "a duration may be a parameter: `let STROLL(t = 3 sec) = WALK for t`"
+    return mistake("MS010", "a definition stands for motions, not for a number", number.span, advice)
 
 
 def _no_meaning(stuck: Stuck, advice: str) -> Mistake:

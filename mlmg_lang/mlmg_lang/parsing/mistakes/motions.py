@@ -36,9 +36,21 @@ def nothing_before(stuck: Stuck) -> Mistake | None:
     word = stuck.token(0)
     if word is None or word.type not in CONTINUES or "NAME" not in stuck.accepts:
         return None
+    if stuck.type(-1) in NAMES:
+        return _inside_parentheses(stuck, word)
     message = f"`{word.text}` needs a motion before it"
+    if word.type == "FOR":
+        advice = "how long comes after what is played; to do it several times, write `repeat 3 { ... }`"
+        return mistake("MS014", message, word.span, advice)
     meant = replaced(stuck, stuck.at) if word.type in JOINERS else None
     return mistake("MS014", message, word.span, "write a motion or tag before it", meant=meant)
+
+
+def _inside_parentheses(stuck: Stuck, word: Token) -> Mistake:
+    """Say what is wrong with `GREET(WALK for 2 sec)`."""
+    message = f"`{word.text}` stands at the end of a statement, not in parentheses"
+    meant = replaced(stuck, stuck.at, n=1 if word.type == "ONCE" else 3)
+    return mistake("MS010", message, word.span, "write it behind the `)`", meant=meant)
 
 
 def not_after_graph(stuck: Stuck) -> Mistake | None:

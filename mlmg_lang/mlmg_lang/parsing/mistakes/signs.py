@@ -84,6 +84,13 @@ def _other_language(stuck: Stuck, message: str, token: Token) -> Mistake | None:
     if token.text in (".", "!", "?") and stuck.left == 1 and stuck.at:
         fix = Fix(token.span, "", safe=True)
         return mistake("MS003", message, token.span, "take it out", fix, meant=replaced(stuck, stuck.at))
+    if token.text == "\\":
+        advice = "take it out: a line goes on where the next begins with `with`, `and`, `or`, `for` or `once`"
+        fix = Fix(token.span, "", safe=True)
+        return mistake("MS003", message, token.span, advice, fix, meant=replaced(stuck, stuck.at))
+    if token.text == "%" and stuck.type(-1) in NUMBERS:
+        fix = Fix(token.span, "", safe=True)
+        return mistake("MS003", message, token.span, "weights are whole numbers: take it out", fix)
     if token.text in ("'", "`"):
         return mistake("MS003", message, token.span, 'a name is quoted with `"`')
     return None
@@ -102,6 +109,11 @@ def _part_of_name(stuck: Stuck, message: str, token: Token) -> Mistake | None:
         right = f"{before.text}-{last.text}"
         meant = replaced(stuck, stuck.at - 1, Token("NAME", right, span), n=3)
         return mistake("MS003", message, token.span, f"write `{right}`", Fix(token.span, "-", safe=False), meant=meant)
+    if token.text == "." and "-" in before.text and last.type == "NAME":
+        # Names of graphs mostly have a hyphen.
+        fix = Fix(token.span, " ", safe=False, name="write a space")
+        advice = f"write `{before.text} {last.text}`"
+        return mistake("MS003", message, token.span, advice, fix, meant=replaced(stuck, stuck.at))
     quoted = f'"{stuck.source.slice(span)}"'
     if not token.text.isprintable() or "\\" in quoted or last.type == "STRING":
         return None
@@ -122,6 +134,11 @@ def stray_sign(stuck: Stuck) -> Mistake | None:
     if token.type == "EQUALS" and stuck.tokens[0].type == "LET":
         return None
     message, advice = _ELSEWHERE[token.type]
+    before, after = stuck.token(-1), stuck.token(1)
+    if token.type == "COLON" and before and after and before.type in NAMES and after.type in NAMES:
+        fix = Fix(token.span, "", safe=False)
+        right = f"{before.text} {after.text}"
+        return mistake("MS010", message, token.span, f"write `{right}`", fix, meant=replaced(stuck, stuck.at))
     if token.type == "COLON" and stuck.left == 1 and stuck.at:
         fix = Fix(token.span, "", safe=False)
         return mistake("MS010", message, token.span, "take it out", fix, meant=replaced(stuck, stuck.at))
