@@ -19,8 +19,10 @@ from mlmg_lang.planning import flow, resolved, typed
 from mlmg_lang.planning.ahead import Ahead
 from mlmg_lang.planning.estimate import NO_TIME, Estimate
 from mlmg_lang.planning.forecast import Forecast, Outcome, Passage, chances_of, forecast
+from mlmg_lang.planning.move import move
 from mlmg_lang.planning.names import Names
 from mlmg_lang.planning.resolve import Resolution, resolve
+from mlmg_lang.planning.rules.ruling import Stopped
 from mlmg_lang.source import Span
 from mlmg_lang.spelling import normal, some
 from mlmg_runtime.library import Library
@@ -205,8 +207,8 @@ class _Explainer:
 
     def _refusal(self, way: typed.Layering, span: Span) -> str:
         """Return why an assignment cannot be obeyed."""
-        stopped = flow.move(way.layers, self._states[span], 0, {}, (self._names, self._library))
-        if not isinstance(stopped, flow.Stopped):
+        stopped = move(way.layers, self._states[span], 0, {}, (self._names, self._library))
+        if not isinstance(stopped, Stopped):
             return "from what may be playing, it is not sure to be possible"
         motions = some(stopped.motions)
         if stopped.by_rule_1:

@@ -16,8 +16,9 @@ from mlmg_lang.definitions.expand import told_from
 from mlmg_lang.diagnostics import Diagnostic, Fix, Note
 from mlmg_lang.planning import flow, resolved, typed
 from mlmg_lang.planning.chart import START, Step, chart
+from mlmg_lang.planning.move import Move, move
 from mlmg_lang.planning.names import Kind, Names
-from mlmg_lang.planning.resolved import LeftOut
+from mlmg_lang.planning.rules.ruling import Narrow, Stopped
 from mlmg_lang.planning.stops import reason
 from mlmg_lang.source import Source, Span
 from mlmg_lang.spelling import listed, nearest
@@ -174,7 +175,7 @@ class _Trial:
     """
 
     number: int
-    stopped: flow.Stopped
+    stopped: Stopped
     pending: set[int]
     forbidden: list[tuple[flow.Setter, str]] = field(default_factory=list)
 
@@ -207,9 +208,9 @@ class _Resolver:
     left: list[flow.State | None] = field(default_factory=list)
     done: dict[Span, resolved.Statement] = field(default_factory=dict)
     told: dict[int, Diagnostic] = field(default_factory=dict)
-    forbidden: dict[flow.Setter, dict[str, LeftOut]] = field(default_factory=dict)
+    forbidden: dict[flow.Setter, dict[str, str]] = field(default_factory=dict)
     ways: dict[int, int] = field(default_factory=dict)
-    first_stop: dict[int, flow.Stopped] = field(default_factory=dict)
+    first_stop: dict[int, Stopped] = field(default_factory=dict)
     trial: _Trial | None = None
     reached: list[flow.State] = field(default_factory=list)
     sound: list[int] = field(default_factory=list)
@@ -303,21 +304,21 @@ class _Resolver:
             return flow.unknown(self.names)
         way = command.ways[self.ways.get(number, 0)]
         forbidden = {layer.graph: self.forbidden.get((self.keys[number], layer.graph), {}) for layer in way.layers}
-        outcome = flow.move(way.layers, state, self.keys[number], forbidden, (self.names, self.catalog), command.once)
-        if isinstance(outcome, flow.Move):
+        outcome = move(way.layers, state, self.keys[number], forbidden, (self.names, self.catalog), command.once)
+        if isinstance(outcome, Move):
             self._accept(number, command, way, outcome)
             return outcome.after
-        if isinstance(outcome, flow.Narrow):
+        if isinstance(outcome, Narrow):
             return self._narrow(number, command, way, outcome)
         if self.trial is not None:
             return self._take_back(self.trial)
         return self._refuse(number, command, outcome)
 
-    def _accept(self, number: int, command: typed.Command, way: typed.Layering, move: flow.Move) -> None:
+    def _accept(self, number: int, command: typed.Command, way: typed.Layering, made: Move) -> None:
         spans = {layer.graph: layer.span for layer in way.layers}
         layers = tuple(
-            resolved.Layer(graph, candidates, spans[graph], move.left_out[graph])
-            for graph, candidates in move.candidates.items()
+            resolved.Layer(graph, candidates, spans[graph], made.left_out[graph])
+            for graph, candidates in made.candidates.items()
         )
         self.done[command.span] = resolved.Command(layers, _duration(command), command.span)
         if self.trial is not None:
@@ -325,7 +326,7 @@ class _Resolver:
             if not self.trial.pending:
                 self.trial = None
 
-    def _refuse(self, number: int, command: typed.Command, stopped: flow.Stopped) -> int:
+    def _refuse(self, number: int, command: typed.Command, stopped: Stopped) -> int:
         """Try the next way to understand a command; if there is none, say why the first cannot be obeyed."""
         first = self.first_stop.setdefault(number, stopped)
         self.ways[number] = self.ways.get(number, 0) + 1
@@ -334,7 +335,7 @@ class _Resolver:
             self.done.pop(command.span, None)
         return self._back_to(number)
 
-    def _narrow(self, number: int, command: typed.Command, way: typed.Layering, narrow: flow.Narrow) -> int:
+    def _narrow(self, number: int, command: typed.Command, way: typed.Layering, narrow: Narrow) -> int:
         """Take candidates away from earlier commands, and go back to the first of them."""
         if self.trial is None:
             self.trial = _Trial(number, self._as_stop(way, narrow), {number})
@@ -344,17 +345,17 @@ class _Resolver:
         for setter, motions in narrow.without.items():
             here = self.forbidden.setdefault(setter, {})
             for motion in sorted(motions - here.keys()):
-                here[motion] = LeftOut(motion, "later command", because)
+                here[motion] = because
                 self.trial.forbidden.append((setter, motion))
         return self._back_to(self._number(min(narrow.without)))
 
-    def _as_stop(self, way: typed.Layering, narrow: flow.Narrow) -> flow.Stopped:
+    def _as_stop(self, way: typed.Layering, narrow: Narrow) -> Stopped:
         """Return what stops a command if the earlier ones cannot be narrowed for it."""
         span = next(layer.span for layer in way.layers if layer.graph == narrow.graph)
         setter = min(narrow.without)
         motions = tuple(motion for motion in self.names.motions(setter[1]) if motion in narrow.without[setter])
         by_rule_1 = not any(motion in self.names.motion_set(narrow.graph) for motion in motions)
-        return flow.Stopped(narrow.graph, span, setter[1], motions, by_rule_1, setter, within=False)
+        return Stopped(narrow.graph, span, setter[1], motions, by_rule_1, setter, within=False)
 
     def _take_back(self, trial: _Trial) -> int:
         """Undo a narrowing that leaves nothing to an earlier command: the later one is refused."""
@@ -394,12 +395,12 @@ class _Resolver:
 
     # --- what to say ---
 
-    def _reason(self, command: typed.Command, stopped: flow.Stopped) -> Diagnostic:
+    def _reason(self, command: typed.Command, stopped: Stopped) -> Diagnostic:
         """Say why a command cannot be obeyed."""
         above = command if stopped.setter is None else self.steps[self._number(stopped.setter)].statement
         return reason(stopped, above, tuple(self._origin(stopped)), self.names, self.catalog)
 
-    def _origin(self, stopped: flow.Stopped) -> Iterator[Note]:
+    def _origin(self, stopped: Stopped) -> Iterator[Note]:
         """Yield where the motions come from that stand in the way, if it is not this command itself."""
         if stopped.setter is not None:
             yield Note(f"this is what `{stopped.above}` plays then", self._span(self._number(stopped.setter)))

@@ -8,8 +8,8 @@ from mlmg_lang.catalog import Catalog
 from mlmg_lang.diagnostics import Diagnostic, Fix, Note
 from mlmg_lang.parsing.lexical import script_name
 from mlmg_lang.planning import typed
-from mlmg_lang.planning.flow import Stopped
 from mlmg_lang.planning.names import Kind, Names
+from mlmg_lang.planning.rules.ruling import Stopped
 from mlmg_lang.source import Span
 from mlmg_lang.spelling import some
 

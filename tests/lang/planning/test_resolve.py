@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from mlmg_lang.front_end import analyse
-from mlmg_lang.planning import flow
+from mlmg_lang.planning import resolve
 from mlmg_lang.planning.resolved import Choose, Command, Cycles, End, Once, Repeat, Seconds, Statement, Wait
 from mlmg_lang.source import Source
 
@@ -520,14 +520,14 @@ def test_an_and_is_shared_out_as_every_order_allows(catalog: Any) -> None:
 def counted_moves(monkeypatch: pytest.MonkeyPatch) -> list[int]:
     """Return a list of one number: how often a command has been worked out since."""
     moves = [0]
-    move = flow.move
+    move = resolve.move
 
     def counted(*arguments: Any) -> Any:
         moves[0] += 1
         assert moves[0] < 100_000, "this goes on for ever"
         return move(*arguments)
 
-    monkeypatch.setattr(flow, "move", counted)
+    monkeypatch.setattr(resolve, "move", counted)
     return moves
 
 

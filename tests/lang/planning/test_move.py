@@ -10,9 +10,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mlmg_lang.planning import flow
-from mlmg_lang.planning.flow import Move, Narrow, Part, State, Stopped
+from mlmg_lang.planning.flow import Part, State
+from mlmg_lang.planning.move import Move, move
 from mlmg_lang.planning.names import Kind, Names
-from mlmg_lang.planning.resolved import LeftOut
+from mlmg_lang.planning.rules.ruling import Narrow, Stopped
 from mlmg_lang.planning.typed import Layer, Named
 from mlmg_lang.source import Span
 
@@ -42,7 +43,7 @@ class Doing:
             Layer(Named(graph, tuple(motions), "x", Kind.TAG, "x", Span(0, 1)), Span(at, at + 1))
             for at, (graph, motions) in enumerate(wanted.items())
         ]
-        return flow.move(layers, state, number, {}, (self.names, self.catalog), once)
+        return move(layers, state, number, {}, (self.names, self.catalog), once)
 
     def after(self, state: State, number: int = 0, once: bool = False, **wanted: str) -> State:
         moved = self.move(state, number, once, **wanted)
@@ -201,7 +202,7 @@ def test_a_candidate_from_which_a_part_cannot_go_on_is_left_out(catalog: Any) ->
     assert isinstance(moved, Move)
     assert moved.candidates["Body"] == ("b",)
     assert [(out.reason, out.because) for out in moved.left_out["Body"]] == [
-        ("unreachable", "nothing asked of `Top` can be reached from it")
+        ("dead end", "nothing asked of `Top` can be reached from it")
     ]
 
 
@@ -335,7 +336,7 @@ def test_what_cannot_be_reached_is_told_from_what_rule_1_forbids(catalog: Any) -
     assert not stopped.by_rule_1
     stopped = doing.move(doing.begin("b"), Body="bc", Top="t")
     assert isinstance(stopped, Stopped)
-    assert (stopped.by_rule_1, stopped.motions) == (False, ("b", "c"))
+    assert (stopped.by_rule_1, stopped.motions) == (False, ("b",))
 
 
 def test_where_anything_may_be_playing_one_way_is_enough(catalog: Any) -> None:
@@ -349,9 +350,9 @@ def test_where_anything_may_be_playing_one_way_is_enough(catalog: Any) -> None:
 
 
 def test_what_a_later_command_has_ruled_out_is_not_taken(doing: Doing) -> None:
-    ruled_out = {"Body": {"b": LeftOut("b", "later command", "so")}}
+    ruled_out = {"Body": {"b": "so"}}
     layers = [Layer(Named("Body", ("a", "b"), "x", Kind.TAG, "x", Span(0, 1)), Span(0, 1))]
-    moved = flow.move(layers, doing.begin(), 0, ruled_out, (doing.names, doing.catalog))
+    moved = move(layers, doing.begin(), 0, ruled_out, (doing.names, doing.catalog))
     assert isinstance(moved, Move)
     assert moved.candidates == {"Body": ("a",)}
     assert [out.reason for out in moved.left_out["Body"]] == ["later command"]
@@ -380,11 +381,17 @@ def test_what_begins_anew_ends_what_runs_below_it(catalog: Any) -> None:
 
 
 def test_what_has_nothing_left_to_begin_cannot(doing: Doing) -> None:
-    ruled_out = {"Body": {"b": LeftOut("b", "later command", "so")}}
+    ruled_out = {"Body": {"b": "so"}}
     layers = [Layer(Named("Body", ("b",), "x", Kind.TAG, "x", Span(0, 1)), Span(0, 1))]
     library = (doing.names, doing.catalog)
-    assert isinstance(flow.move(layers, doing.begin(), 0, ruled_out, library, once=True), Stopped)
+    assert isinstance(move(layers, doing.begin(), 0, ruled_out, library, once=True), Stopped)
 
 
 def test_a_part_that_begins_anew_runs_alone_even_if_the_body_plays_the_same(doing: Doing) -> None:
     assert doing.after(doing.begin(), once=True, Top="a").parts["Top"].alone
+
+
+def test_a_part_that_has_begun_anew_runs_on_when_it_is_asked_for_what_it_plays(doing: Doing) -> None:
+    begun = doing.after(doing.begin(), once=True, Top="a")
+    assert doing.after(begun, Top="a").parts["Top"].alone
+    assert not doing.after(doing.after(doing.begin(), Top="t"), Top="a").parts["Top"].alone
