@@ -8,6 +8,8 @@ from pathlib import Path
 
 import pytest
 
+from mlmg_lang.planning.rules.table import RULES
+
 ROOT = Path(__file__).parents[1]
 ROW = re.compile(r"^\| `(\w+)` \| `(\w+)` \| `([\w.]+)` \|$", re.MULTILINE)
 STAGES = ROW.findall((ROOT / "docs" / "architecture.md").read_text(encoding="utf-8"))
@@ -28,6 +30,12 @@ def test_a_stage_stands_where_the_page_says_and_speaks_of_what_it_gives(verb, re
 
 def test_the_readme_has_the_same_table():
     assert ROW.findall((ROOT / "README.md").read_text(encoding="utf-8")) == STAGES
+
+
+def test_the_page_has_the_table_of_rules():
+    page = (ROOT / "docs" / "architecture.md").read_text(encoding="utf-8")
+    rows = re.findall(r"^\| ([\w ]+) \| (\w+) \| .+ \| `([\w.]+)` \|$", page, re.MULTILINE)
+    assert rows == [(rule.name, rule.order.name.lower(), rule.judge.__module__) for rule in RULES]
 
 
 @pytest.mark.parametrize("module", ["mlmg_lang.front_end", "mlmg_lang.commands.mlmg", "mlmg_lang.commands.check"])

@@ -231,7 +231,8 @@ class Layer:
     stays, follows : the chances that it keeps its motion, and that it follows the graph above, which plays a candidate.
     sources : what it sets out from, where it moves.
     candidates : in the order in which they are likely to be tried.
-    rankings : below the root, the order for each motion that the graph above may play then.
+    rankings : below the root, the order for each motion that the graph above may play then; what is `outranked` has its
+        place in it too.
     """
 
     graph: str

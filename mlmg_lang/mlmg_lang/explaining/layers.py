@@ -93,7 +93,8 @@ def _rankings(layer: resolved.Layer, legs: _Legs, travel: Travel) -> list[told.R
             chances[leg.above] = chances.get(leg.above, 0.0) + chance
     rankings = []
     for above, chance in sorted(chances.items(), key=lambda one: -one[1]):
-        order = by_similarity(layer.graph, above, layer.candidates, travel)
+        ranked = (*layer.candidates, *(one.motion for one in layer.left_out if one.reason == "outranked"))
+        order = by_similarity(layer.graph, above, ranked, travel)
         fits = (_fit(layer.graph, above, motion, travel) for motion in order)
         rankings.append(told.Ranking(above, _thousandths(chance), tuple(fits)))
     return rankings

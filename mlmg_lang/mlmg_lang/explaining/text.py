@@ -260,7 +260,7 @@ def _layer(layer: Layer) -> Tree:
     rows: list[Tree] = []
     if layer.sources:
         sources = ", ".join(_source(layer, one.graph, one.motion, one.chance) for one in layer.sources)
-        if len(layer.candidates) == 1:
+        if len(layer.candidates) == 1 and not _outranked(layer):
             told.append(f"from {sources} to {_only(layer)}")
         else:
             goal = "whichever is reached soonest" if layer.rule == "soonest" else "what fits best"
@@ -299,11 +299,13 @@ def _source(layer: Layer, graph: str, motion: str, chance: float) -> str:
 
 def _candidates(layer: Layer) -> list[Tree]:
     shown = layer.candidates[:_MOST_CANDIDATES]
+    outranked = _outranked(layer)[: _MOST_CANDIDATES - len(shown)]
     oms = _oms_of(layer)
     rows = [_row(number, one, oms.get(one.motion, "")) for number, one in enumerate(shown, 1)]
-    trees = [
-        Tree(line, style=(_GREEN,) if one.chance > 0 else ()) for line, one in zip(table(rows), shown, strict=True)
-    ]
+    numbered = enumerate(outranked, len(shown) + 1)
+    rows += [(f"{number}.", motion, oms.get(motion, ""), "", "", "outranked", "") for number, motion in numbered]
+    styles = [(_GREEN,) if one.chance > 0 else () for one in shown] + [(_DIM,)] * len(outranked)
+    trees = [Tree(line, style=style) for line, style in zip(table(rows), styles, strict=True)]
     more = layer.candidates[_MOST_CANDIDATES:]
     if more:
         chance = sum(one.chance for one in more)
@@ -331,7 +333,7 @@ def _row(number: int, one: Candidate, fits: str) -> tuple[str, ...]:
 
 def _told_apart(layer: Layer) -> Sequence[Ranking]:
     """Return the rankings of a layer where there are several, so that they are not told with the candidates."""
-    return layer.rankings if len(layer.rankings) > 1 and len(layer.candidates) > 1 else ()
+    return layer.rankings if len(layer.rankings) > 1 and len(layer.rankings[0].fits) > 1 else ()
 
 
 def _ranking(one: Ranking) -> Tree:
@@ -342,14 +344,18 @@ def _ranking(one: Ranking) -> Tree:
 def _left_out(layer: Layer) -> Iterator[Tree]:
     by: dict[tuple[str, str], list[str]] = {}
     for one in layer.left_out:
+        if layer.sources and one.reason == "outranked":
+            continue  # They stand with the candidates, which come before them.
         by.setdefault((one.reason, one.because), []).append(one.motion)
     for (reason, because), motions in by.items():
-        yield Tree("left out", f"{_listed(motions)}, by {_reason(reason)}: {because}", style=(_DIM,))
+        yield Tree("left out", f"{_listed(motions)} ({reason}): {because}", style=(_DIM,))
 
 
-def _reason(reason: str) -> str:
-    named = {"rule 1": "rule 1", "later command": "a later command", "look ahead": "looking ahead"}
-    return named.get(reason, "the graph's transitions")
+def _outranked(layer: Layer) -> list[str]:
+    """Return the motions that would come after the candidates by their fit, the best first."""
+    out = [one.motion for one in layer.left_out if one.reason == "outranked"]
+    order = [fit.motion for fit in layer.rankings[0].fits] if layer.rankings else out
+    return sorted(out, key=order.index)
 
 
 # --- what happened ---

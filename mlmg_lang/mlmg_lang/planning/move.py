@@ -15,7 +15,7 @@ from mlmg_lang.planning.rules.ruling import Hindrance, Narrow, Stopped
 from mlmg_lang.planning.rules.table import RULES, Order, Rule
 from mlmg_lang.planning.typed import Layer
 
-_PHASES = tuple((order, tuple(rules)) for order, rules in groupby(RULES, lambda rule: rule.order))
+PHASES = tuple((order, tuple(rules)) for order, rules in groupby(RULES, lambda rule: rule.order))
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,26 +48,26 @@ def move(
     layers = {layer.graph: layer for layer in sorted(chosen, key=lambda layer: names.height(layer.graph))}
     begins = next(iter(layers)) if once else None
     left = {graph: layer.motions for graph, layer in layers.items()}
-    attempt: Attempt | Hindrance
-    attempt = Attempt(names, catalog, state, layers, begins, ruled_out, left, dict.fromkeys(layers, ()))
-    for order, rules in _PHASES:
-        attempt = _downwards(attempt, rules) if order is Order.DOWNWARDS else _upwards(attempt, rules)
-        if isinstance(attempt, Narrow | Stopped):
-            return attempt
-    return Move(attempt.left, attempt.out, _after(attempt, key))
-
-
-def _downwards(attempt: Attempt, rules: Sequence[Rule]) -> Attempt | Hindrance:
-    return _asked(attempt, tuple(attempt.layers), rules)
+    settled = attempt = Attempt(names, catalog, state, layers, begins, ruled_out, left, dict.fromkeys(layers, ()))
+    for order, rules in PHASES:
+        asked = _upwards(attempt, rules) if order is Order.UPWARDS else _asked(attempt, tuple(layers), rules)
+        if isinstance(asked, Narrow | Stopped):
+            return asked
+        attempt = asked
+        settled = settled if order is Order.LAST else attempt
+    return Move(attempt.left, attempt.out, _after(settled, key))
 
 
 def _upwards(attempt: Attempt, rules: Sequence[Rule]) -> Attempt | Hindrance:
     graphs = tuple(attempt.layers)[::-1]
-    while True:
+    before = None
+    while before != attempt.left:
+        before = attempt.left
         asked = _asked(attempt, graphs, rules)
-        if isinstance(asked, Narrow | Stopped) or asked.left == attempt.left:
+        if isinstance(asked, Narrow | Stopped):
             return asked
         attempt = asked
+    return attempt
 
 
 def _asked(attempt: Attempt, graphs: Sequence[str], rules: Sequence[Rule]) -> Attempt | Hindrance:

@@ -142,10 +142,13 @@ def test_candidates_of_a_part_stand_in_the_order_in_which_they_fit(last, made_li
     layer = last("Walk_03\nUpper-Body (IDLE or TALK)").layers[0]
     assert (layer.rule, layer.rankings[0].above) == ("best fit", "Walk_03")
     graph = made_library.by_name[UPPER]
-    oms = [float(graph.oms[graph.index["Walk_03"], graph.index[one.motion]]) for one in layer.candidates]
-    assert oms == sorted(oms)
-    assert [fit.oms for fit in layer.rankings[0].fits] == oms
-    assert layer.candidates[0].chance == 1.0
+    fits = layer.rankings[0].fits
+    oms = [float(graph.oms[graph.index["Walk_03"], graph.index[fit.motion]]) for fit in fits]
+    assert [fit.oms for fit in fits] == oms == sorted(oms)
+    (taken,) = layer.candidates
+    assert (taken.motion, taken.chance) == (fits[0].motion, 1.0)
+    assert {one.motion for one in layer.left_out} == {fit.motion for fit in fits[1:]}
+    assert {one.reason for one in layer.left_out} == {"outranked"}
 
 
 def test_what_plays_a_candidate_stays_and_needs_no_time(last):

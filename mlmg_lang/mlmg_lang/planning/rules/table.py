@@ -9,6 +9,7 @@ from enum import Enum
 from mlmg_lang.planning.rules.attempt import Attempt
 from mlmg_lang.planning.rules.dead_end import dead_end
 from mlmg_lang.planning.rules.later_command import later_command
+from mlmg_lang.planning.rules.outranked import outranked
 from mlmg_lang.planning.rules.rule_1 import rule_1
 from mlmg_lang.planning.rules.ruling import Ruling
 from mlmg_lang.planning.rules.unreachable import unreachable
@@ -20,6 +21,7 @@ class Order(Enum):
 
     DOWNWARDS = "from the highest to the lowest"
     UPWARDS = "from the lowest to the highest, until that leaves out no more"
+    LAST = "from the highest to the lowest, for this command alone: those after it go by what was left before"
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,4 +44,5 @@ RULES = (
     Rule("dead end", Order.UPWARDS, dead_end),
     Rule("way on", Order.DOWNWARDS, way_on),
     Rule("unreachable", Order.DOWNWARDS, unreachable),
+    Rule("outranked", Order.LAST, outranked),
 )
