@@ -129,10 +129,16 @@ class Teller:
 
         `afresh`: its motion is wanted `once`, from where it begins.
         """
-        graph, candidates = layer.graph, layer.candidates
-        left = "".join(f", without {out.motion} ({out.reason})" for out in layer.left_out)
+        graph = layer.graph
+        # What is outranked is told with its rank, and never taken.
+        outranked = {out.motion for out in layer.left_out if out.reason == "outranked"}
+        candidates = tuple(m for m in self.library.motions(graph) if m in outranked or m in layer.candidates)
+        left = "".join(
+            f", without {out.motion} ({out.reason})" for out in layer.left_out if out.motion not in outranked
+        )
         driver, above = self._driver(graph), self.library.parent(graph)
         if driver in candidates and not (afresh and not self._begins(graph, from_then)):
+            assert driver not in outranked
             verb = "keeps" if graph in self.own else "follows"
             return [f"{graph} {verb} {driver} of {' '.join(candidates)}{left}"], from_then
         told, back = self._end_parts(self._below([graph]))
@@ -142,6 +148,7 @@ class Teller:
             left += f", from frame {self.library.by_name[graph].window - 1} by a {way}"
         measured = self._fits(graph) if above else self._arrivals(self.library.root, from_then)
         best, numbers = best_of(candidates, measured, entry["begin"])
+        assert best not in outranked
         if above and best == self._driver(above) and not afresh:
             del self.own[graph]
             return [*told, f"{graph} ends: {numbers}{left}"], self._run_ends(graph, from_then)
