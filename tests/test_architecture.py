@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 
+import mlmg_lang.planning.finding.table as finding_table
 from mlmg_lang.planning.rules.table import RULES
 
 ROOT = Path(__file__).parents[1]
@@ -36,6 +37,12 @@ def test_the_page_has_the_table_of_rules():
     page = (ROOT / "docs" / "architecture.md").read_text(encoding="utf-8")
     rows = re.findall(r"^\| ([\w ]+) \| (\w+) \| .+ \| `([\w.]+)` \|$", page, re.MULTILINE)
     assert rows == [(rule.name, rule.order.name.lower(), rule.judge.__module__) for rule in RULES]
+
+
+def test_the_page_has_the_table_of_rules_that_find_expressions():
+    page = (ROOT / "docs" / "architecture.md").read_text(encoding="utf-8")
+    rows = re.findall(r"^\| ([\w ]+) \| [^|]+ \| `(mlmg_lang\.planning\.finding\.\w+)` \|$", page, re.MULTILINE)
+    assert rows == [(rule.name, rule.find.__module__) for rule in finding_table.RULES]
 
 
 @pytest.mark.parametrize("module", ["mlmg_lang.front_end", "mlmg_lang.commands.mlmg", "mlmg_lang.commands.check"])

@@ -21,9 +21,9 @@ from mlmg_lang.explaining.explanation import (
 from mlmg_lang.parsing import syntax
 from mlmg_lang.parsing.structure import is_sub, without_groups
 from mlmg_lang.planning import typed
+from mlmg_lang.planning.finding.sets import flattened
 from mlmg_lang.planning.names import Names
 from mlmg_lang.planning.nothing import Room
-from mlmg_lang.planning.select import flattened
 from mlmg_lang.source import Source, Span
 
 

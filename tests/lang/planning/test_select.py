@@ -10,8 +10,9 @@ from mlmg_lang.diagnostics import Diagnostic
 from mlmg_lang.parsing.line_parser import read
 from mlmg_lang.parsing.syntax import Command
 from mlmg_lang.parsing.tokenize import tokenize
+from mlmg_lang.planning.finding.sets import flattened
 from mlmg_lang.planning.names import Names
-from mlmg_lang.planning.select import flattened, select
+from mlmg_lang.planning.select import select
 from mlmg_lang.source import Source
 
 WALKS = ("Walk_01", "Walk_02", "Walk_03")

@@ -13,9 +13,9 @@ from mlmg_lang.diagnostics import Diagnostic
 from mlmg_lang.parsing.line_parser import read
 from mlmg_lang.parsing.syntax import Command
 from mlmg_lang.parsing.tokenize import tokenize
+from mlmg_lang.planning.finding.sharing import MAX_WAYS
 from mlmg_lang.planning.names import Names
 from mlmg_lang.planning.select import select
-from mlmg_lang.planning.sharing import MAX_WAYS
 from mlmg_lang.source import Source
 
 Way = list[tuple[str, tuple[str, ...]]]
