@@ -11,6 +11,8 @@ from __future__ import annotations
 
 import argparse
 import gc
+import random
+import resource
 import statistics
 import subprocess
 import sys
@@ -106,17 +108,69 @@ def checking(n_lines: int, library: Library) -> list[Row]:
     ]
 
 
+DEFINED = "let move = WALK or IDLE\nlet talk(x, t = 2 sec) = x with Upper-Body TALK for t\nlet seldom = not WALK\n"
+
+
+def defining(n_lines: int) -> str:
+    """Return a script in which one line in ten uses a definition, and five use another."""
+    lines = script(n_lines).splitlines(keepends=True)
+    lines[::10] = [f"move for {1 + at / 1000:.3f} sec\n" for at in range(len(lines[::10]))]
+    lines[7 :: n_lines // 5] = ["seldom for 1.5 sec\n"] * 5
+    return DEFINED + "".join(lines)
+
+
 def editing(library: Library) -> list[Row]:
     """Measure what an editor waits for after one character has been typed somewhere in a script."""
-    text = script(N_EDITED_LINES)
-    # The script is cut into its pieces at the first edit; an editor can have that done while nobody types.
-    previous = analyse_again(analyse(Source(text + "\n"), library), Source(text))
+    text, with_lets = script(N_EDITED_LINES), defining(N_EDITED_LINES)
+    cases = (
+        ("again after an edit", text, None, 0.010),
+        ("the same, with definitions", with_lets, None, 0.010),
+        ("the same, behind an open parenthesis", text.replace("WALK for", "WALK and (IDLE for", 1), None, 0.010),
+        ("the first motion", text, ("WALK for 1.0", "Walk_01 for 1.0"), 0.010),
+        ("a definition that five lines use", with_lets, ("not WALK", "not TALK"), None),
+        ("a definition that a thousand lines use", with_lets, ("WALK or IDLE", "WALK or TALK"), None),
+        ("in a block of 1,000 lines", f"repeat 2 {{\n{script(1_000)}}}\n", None, None),
+    )
+    return [Row(label, _again_s(text, edit, library), limit) for label, text, edit, limit in cases]
+
+
+def _again_s(text: str, edit: tuple[str, str] | None, library: Library) -> float:
+    """Return the median over places in a script, or over several times the same edit."""
+    # What an edit needs to know of each piece is put together once; an editor can have that done while nobody types.
+    previous = analyse(Source(text), library)
+    _ = previous.ready
     times = []
     for number in range(N_EDITS):
         at = text.index(".", len(text) * number // N_EDITS) + 1
-        edited = Source(text[:at] + "7" + text[at:])
-        times.append(cpu_s(partial(analyse_again, previous, edited)))
-    return [Row(f"again after an edit in {N_EDITED_LINES:,} lines", statistics.median(times), 0.010)]
+        edited = text[:at] + "7" + text[at:] if edit is None else text.replace(*edit, 1)
+        times.append(cpu_s(partial(analyse_again, previous, Source(edited))))
+    return statistics.median(times)
+
+
+def odd_texts() -> dict[str, str]:
+    """Return 10 MB of what nobody would write, and 10,000 nested parentheses."""
+    size, draw = 10_000_000, random.Random(0)
+    letters = [chr(code) for code in range(0x3000) if not 0xD800 <= code < 0xE000]
+    return {
+        "10 MB in one line": "WALK and " * (size // 9) + "WALK",
+        "10 MB in one name": "W" * size,
+        "10 MB of random Unicode": "".join(draw.choices(letters, k=size)),
+        "10 MB of (": "(" * size,
+        '10 MB of "': '"' * size,
+        "10 MB of WALK with": "WALK with " * (size // 10),
+        "10,000 nested parentheses": "(" * 10_000 + "WALK" + ")" * 10_000,
+    }
+
+
+def bounds(library: Library) -> list[Row]:
+    """Measure the check of texts that nobody would write; memory is the most of this process so far."""
+    rows = []
+    for label, text in odd_texts().items():
+        seconds = cpu_s(partial(analyse, Source(text), library))
+        rows.append(
+            Row(label, seconds, 10.0, f"{resource.getrusage(resource.RUSAGE_SELF).ru_maxrss // 1024} MB so far")
+        )
+    return rows
 
 
 def formatting(n_lines: int) -> list[Row]:
@@ -156,6 +210,7 @@ def main() -> int:
     for rows in (
         starting(library),
         editing(library),
+        bounds(library),
         formatting(options.lines),
         checking(options.lines, library),
     ):

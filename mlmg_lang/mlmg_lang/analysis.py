@@ -1,26 +1,33 @@
-"""What is known of a script: made whole at once, or kept in pieces and put together when somebody asks."""
+"""What is known of a script: kept in pieces, and put together when somebody asks."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Final, TypeVar
 
 from mlmg_lang.catalog import Catalog
-from mlmg_lang.definitions.gather import Definitions, Files
+from mlmg_lang.definitions.gather import Definitions, Files, Gathered
 from mlmg_lang.diagnostics import Diagnostic, has_errors
-from mlmg_lang.moving import by, moved
+from mlmg_lang.moving import moved
 from mlmg_lang.parsing import syntax
 from mlmg_lang.parsing.tokens import Token
+from mlmg_lang.pieces import Addressed, Piece, Places, all_of, starts_of
 from mlmg_lang.source import Source, Span
 
 if TYPE_CHECKING:
+    from mlmg_lang.planning import resolved
     from mlmg_lang.planning.names import Names
-    from mlmg_lang.planning.pieces import Piece, Placed, Played
     from mlmg_lang.planning.resolve import Resolution
+    from mlmg_lang.planning.resolve_again import Played
     from mlmg_lang.planning.resolved import ResolvedPlan
     from mlmg_lang.planning.typed import TypedPlan
+
+T = TypeVar("T")
+_LATER: Final = re.compile(r"(?<=^what line )\d+")
+"""In the words of what a later command has ruled out, the number of its line."""
 
 
 _UNUSED: Final = "MS054"
@@ -38,7 +45,7 @@ class Question:
     files: Files
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Found:
     """All that there is to say of a script, before it is known what of it is told.
 
@@ -51,7 +58,7 @@ class Found:
     played: tuple[Diagnostic, ...] = ()
     hints: tuple[Diagnostic, ...] = ()
 
-    @property
+    @cached_property
     def wrong(self) -> bool:
         """Return whether the script cannot be played."""
         return has_errors(self.read) or has_errors(self.played)
@@ -65,99 +72,102 @@ class Found:
         return (*read, *self.played, *(() if self.wrong else self.hints))
 
 
-@dataclass(frozen=True, slots=True)
-class Whole:
-    """What the stages have made of a whole script. Without a library there is neither plan nor resolution."""
-
-    source: Source
-    tokens: tuple[Token, ...]
-    script: syntax.Script
-    expanded: syntax.Script
-    plan: TypedPlan | None = None
-    resolution: Resolution | None = None
-
-    @property
-    def playable(self) -> ResolvedPlan | None:
-        """Return what is to be played, if nothing is wrong."""
-        return None if self.resolution is None else self.resolution.plan
-
-
 @dataclass(frozen=True)
 class InPieces:
-    """The same in pieces, of a script that defines nothing.
+    """A script in pieces.
 
     Attributes
     ----------
-    starts : where the pieces begin; last, where the script ends.
-    played : as many as `pieces`; None without a library.
-    start : the motion that the script starts in.
-    serial : how many times pieces have changed.
+    source : with the files that it uses.
+    places : where the addresses of pieces are now.
+    defined : what is wrong with its definitions. unused : which of them are not used.
+    start : the motion that it starts in; empty without a library.
+    resolution : what it plays, if all of it was resolved together.
+    played : else, what each piece plays, and `keys`, those of its steps; none without a library.
+    room : the first address that nothing has had.
+    serial : how many times pieces have changed; until they do, addresses are offsets.
     """
 
     source: Source
     pieces: Sequence[Piece]
-    starts: Sequence[int]
-    played: Sequence[Played] | None
+    places: Places
+    gathered: Gathered
+    defined: tuple[Diagnostic, ...]
+    unused: tuple[Diagnostic, ...]
     start: str
+    resolution: Resolution | None
+    played: Sequence[Played]
+    keys: Sequence[range]
+    room: int
     serial: int
+
+    def with_pieces(self, source: Source, pieces: Sequence[Piece], size: int) -> InPieces:
+        """Return another text in pieces, for which addresses have been taken; what they mean is not known yet."""
+        return replace(
+            self,
+            source=replace(source, used=self.source.used),
+            pieces=pieces,
+            places=Places(pieces, starts_of(pieces), self.places.files),
+            room=self.room + size + 1,
+            serial=self.serial + 1,
+        )
+
+    @property
+    def addressed(self) -> Source:
+        """Return the source for those who ask with addresses."""
+        return Addressed(self.source.text, self.source.name, self.source.used, self.places)
+
+    def now(self, value: T) -> T:
+        """Return a value with offsets in place of addresses."""
+        return moved(value, self.places) if self.serial else value
+
+    @cached_property
+    def definitions(self) -> Definitions:
+        """Return what the names mean that it defines."""
+        kept = self.gathered.definitions
+        return replace(kept, lets={name: self.now(let) for name, let in kept.lets.items()})
 
     @cached_property
     def tokens(self) -> tuple[Token, ...]:
         """Return the tokens of the script."""
-        return tuple(token for piece, at in self._placed() for token in _at(piece, piece.tokens, at))
+        return self.now(tuple(all_of(self.pieces, "tokens")))
 
     @cached_property
     def script(self) -> syntax.Script:
         """Return the syntax tree."""
-        items = tuple(item for piece, at in self._placed() for item in _at(piece, piece.items, at))
-        return syntax.Script(items, Span(0, len(self.source.text)))
-
-    @property
-    def expanded(self) -> syntax.Script:
-        """Return the syntax tree again, as nothing is defined."""
-        return self.script
+        return self._script(tuple(all_of(self.pieces, "items")))
 
     @cached_property
-    def plan(self) -> TypedPlan | None:
+    def expanded(self) -> syntax.Script:
+        """Return the syntax tree with what its definitions say in place of their names."""
+        if all(piece.expanded is piece.items for piece in self.pieces):
+            return self.script
+        return self._script(tuple(all_of(self.pieces, "expanded")))
+
+    def _script(self, items: tuple[syntax.Item, ...]) -> syntax.Script:
+        return syntax.Script(self.now(items), Span(0, len(self.source.text)))
+
+    @cached_property
+    def plan(self) -> TypedPlan:
         """Return the typed plan."""
-        if self.played is None:
-            return None
         from mlmg_lang.planning.typed import TypedPlan
 
-        return TypedPlan(tuple(one for piece, at in self._placed() for one in _at(piece, piece.statements, at)))
+        return TypedPlan(self.now(tuple(all_of(self.pieces, "statements"))))
 
     @cached_property
-    def playable(self) -> ResolvedPlan | None:
+    def playable(self) -> ResolvedPlan:
         """Return what is to be played, if nothing is wrong."""
-        if self.played is None:
-            return None
-        from mlmg_lang.planning.pieces import played_at
+        if self.resolution is not None:
+            return self.resolution.plan
         from mlmg_lang.planning.resolved import ResolvedPlan
 
-        placed = ((one, at, self.source.position(at)[0]) for one, at in zip(self.played, self.starts, strict=False))
-        return ResolvedPlan(
-            self.source, self.start, tuple(one for p, at, row in placed for one in played_at(p, at, row))
-        )
+        parts = enumerate(self.played)
+        now = (on_lines(one, self.line_of(at) - played.line) for at, played in parts for one in played.statements)
+        return ResolvedPlan(self.source, self.start, self.now(tuple(now)))
 
-    def _placed(self) -> Iterator[tuple[Piece, int]]:
-        return zip(self.pieces, self.starts, strict=False)
-
-
-def _at(piece: Piece, values: tuple[Placed, ...], start: int) -> tuple[Placed, ...]:
-    """Return values of a piece as they are where it begins at an offset."""
-    return values if piece.origin == start else moved(values, by(start - piece.origin))
-
-
-def in_pieces(whole: Whole) -> InPieces:
-    """Return a script that defines nothing in pieces."""
-    from mlmg_lang.planning.pieces import pieces_of, played_of, starts_of
-
-    statements = () if whole.plan is None else whole.plan.statements
-    pieces = pieces_of(len(whole.source.text), whole.tokens, whole.script.items, statements)
-    starts, played, start = starts_of(pieces), None, ""
-    if whole.resolution is not None:
-        played, start = played_of(pieces, starts, whole.resolution, whole.source), whole.resolution.plan.start
-    return InPieces(whole.source, pieces, starts, played, start, 0)
+    def line_of(self, number: int) -> int:
+        """Return the line on which a piece begins."""
+        return self.source.position(self.places.starts[number])[0]
 
 
 @dataclass(frozen=True)
@@ -166,18 +176,24 @@ class Analysis:
 
     Attributes
     ----------
-    source : the script; with it the files that it uses.
-    definitions : what the names mean that it defines.
     diagnostics : in the order of the text.
     question, found, made : what it was analysed against, and what came of it, for the next analysis.
     """
 
-    source: Source
-    definitions: Definitions
     diagnostics: tuple[Diagnostic, ...]
     question: Question
     found: Found
-    made: Whole | InPieces
+    made: InPieces
+
+    @property
+    def source(self) -> Source:
+        """Return the script; with it the files that it uses."""
+        return self.made.source
+
+    @property
+    def definitions(self) -> Definitions:
+        """Return what the names mean that it defines."""
+        return self.made.definitions
 
     @property
     def tokens(self) -> tuple[Token, ...]:
@@ -197,14 +213,51 @@ class Analysis:
     @property
     def plan(self) -> TypedPlan | None:
         """Return the script with its types; None without a library."""
-        return self.made.plan
+        return None if self.question.catalog is None else self.made.plan
 
     @property
     def resolved(self) -> ResolvedPlan | None:
         """Return what is to be played; None without a library, or if there are errors."""
-        return None if self.found.wrong else self.made.playable
+        return None if self.question.catalog is None or self.found.wrong else self.made.playable
 
     @cached_property
-    def pieces(self) -> InPieces:
-        """Return the script in pieces; it must define nothing."""
-        return self.made if isinstance(self.made, InPieces) else in_pieces(self.made)
+    def ready(self) -> InPieces:
+        """Return the script with what an edit needs to know of each piece, which takes a while the first time."""
+        return _ready(self.made, self.question)
+
+
+def _ready(made: InPieces, question: Question) -> InPieces:
+    if made.resolution is None or question.names is None or question.catalog is None:
+        return made
+    from mlmg_lang.planning.resolve_again import Player, keyed, played_of
+
+    keys = keyed(made.pieces)
+    player = Player(made.pieces, made.line_of, keys, (question.names, question.catalog), made.source, made.start)
+    played = player.hinted(
+        played_of(made.pieces, map(made.line_of, range(len(keys))), keys, made.resolution), [range(len(keys))]
+    )
+    return replace(made, resolution=None, played=played, keys=keys)
+
+
+def on_lines(statement: resolved.Statement, further: int) -> resolved.Statement:
+    """Return a statement as it is when all lines that it tells of stand further down."""
+    from mlmg_lang.planning import resolved
+
+    match statement:
+        case resolved.Command(layers) if further:
+            return replace(statement, layers=tuple(_layer_on_lines(layer, further) for layer in layers))
+        case resolved.Repeat(body=body) if further:
+            return replace(statement, body=tuple(on_lines(one, further) for one in body))
+        case resolved.Choose(branches) if further:
+            bodies = [tuple(on_lines(one, further) for one in branch.body) for branch in branches]
+            kept = [replace(branch, body=body) for branch, body in zip(branches, bodies, strict=True)]
+            return replace(statement, branches=tuple(kept))
+    return statement
+
+
+def _layer_on_lines(layer: resolved.Layer, further: int) -> resolved.Layer:
+    left_out = (
+        replace(one, because=_LATER.sub(lambda found: str(int(found[0]) + further), one.because))
+        for one in layer.left_out
+    )
+    return replace(layer, left_out=tuple(left_out))

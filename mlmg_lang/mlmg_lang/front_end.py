@@ -2,30 +2,31 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from itertools import compress
+from operator import attrgetter
 from typing import TYPE_CHECKING
 
-from mlmg_lang.analysis import Analysis, Found, InPieces, Question, Whole
+from mlmg_lang.analysis import Analysis, Found, InPieces, Question
 from mlmg_lang.catalog import Catalog
-from mlmg_lang.definitions.expand import expand
-from mlmg_lang.definitions.gather import Definitions, Files, NoFiles, gather
+from mlmg_lang.definitions.expand import MAX_ALL_NODES, Expander, unused
+from mlmg_lang.definitions.gather import Definitions, Files, Gathered, NoFiles, gather, gather_with
 from mlmg_lang.diagnostics import Diagnostic
 from mlmg_lang.parsing.case import guess_case
 from mlmg_lang.parsing.lookalikes import opens_or_closes
 from mlmg_lang.parsing.parse import parse
 from mlmg_lang.parsing.structure import check_definition, check_structure, misplaced
-from mlmg_lang.parsing.syntax import Choose, Let, Repeat, Script, Use, walk
-from mlmg_lang.parsing.tokenize import tokenize
-from mlmg_lang.source import Source
+from mlmg_lang.parsing.syntax import Item, Script, Use
+from mlmg_lang.parsing.tokenize import MAX_TOKENS, tokenize
+from mlmg_lang.pieces import Piece, Places, all_of, pieces_of, starts_of
+from mlmg_lang.source import Source, Span
 from mlmg_lang.suppression import suppress
 
 if TYPE_CHECKING:
-    from mlmg_lang.editing import Edit
+    from mlmg_lang.editing import Change
     from mlmg_lang.planning.names import Names
-    from mlmg_lang.planning.resolve import Resolution
-    from mlmg_lang.planning.resolve_again import Change
-    from mlmg_lang.planning.typed import Statement
+    from mlmg_lang.planning.plan import Planner
 
 _MAX_FOUND = 200
 """With so many diagnostics of texts and names, stages may have given up, which depends on the whole script."""
@@ -48,15 +49,12 @@ def analyse(
 
 
 def analyse_again(previous: Analysis, source: Source) -> Analysis:
-    """Return what `analyse` does for another text against the same library, sooner if it is much the same text.
+    """Return what `analyse` does for another text against the same library and files, sooner if it is much the same.
 
-    What lines say that have not changed is kept. All is analysed afresh where a script defines something or uses
-    files, or there is very much to say of it.
+    What lines say that have not changed is kept, and so are the files that are used; those are read again where the
+    edit is in what uses them.
     """
-    again = None
-    if _stands_alone(previous) and not source.used:
-        again = _edited(previous, source)
-    return _analysed(source, previous.question) if again is None else again
+    return _edited(previous, source) or _analysed(source, previous.question)
 
 
 # --- all afresh ---
@@ -66,34 +64,30 @@ def _analysed(source: Source, question: Question) -> Analysis:
     tokens = tokenize(source)
     parsed = parse(source, tokens)
     gathered = gather(source, parsed.script, question.files)
-    definitions = gathered.definitions
-    expanded = expand(parsed.script, definitions)
-    structural = _structure(parsed.script, expanded.script, definitions, question.catalog)
-    read = (*parsed.diagnostics, *gathered.diagnostics, *expanded.diagnostics, *structural)
-    whole = Whole(gathered.source, tokens, parsed.script, expanded.script)
-    if question.catalog is None or question.names is None:
-        return _told(definitions, question, Found((*read, *guess_case(parsed.script))), whole)
-    return _against(question.names, question.catalog, question, definitions, whole, read)
+    reader = _Reader(question, gathered, gathered.source)
+    read = pieces_of(len(source.text), tokens, parsed.script.items, parsed.diagnostics)
+    pieces = [reader.understood(piece) for piece in read]
+    room = gathered.source.end + 1
+    places = Places(pieces, starts_of(pieces), range(len(source.text) + 1, room))
+    idle = tuple(_unused(pieces, gathered.definitions))
+    made = InPieces(gathered.source, pieces, places, gathered, reader.defined(), idle, "", None, (), (), room, 0)
+    found = Found(_read(made))
+    if question.names is None or question.catalog is None:
+        return _told(question, found, made)
+    return _resolved(question.names, question.catalog, question, found, made)
 
 
-def _against(
-    names: Names,
-    catalog: Catalog,
-    question: Question,
-    definitions: Definitions,
-    whole: Whole,
-    read: tuple[Diagnostic, ...],
-) -> Analysis:
+def _resolved(names: Names, catalog: Catalog, question: Question, found: Found, made: InPieces) -> Analysis:
     """Return an analysis that goes on with what a library says."""
     # A fifth of what checking a small script without a library takes would be spent on importing these.
-    from mlmg_lang.planning.plan import plan
+    from mlmg_lang.planning.passing import left_at_once
     from mlmg_lang.planning.resolve import resolve
+    from mlmg_lang.planning.unusual import unusual
 
-    planned = plan(whole.expanded, definitions, names, catalog.frame_rate, whole.source)
-    resolution = resolve(planned.plan, names, catalog, whole.source, question.start)
-    hints = _hints(resolution, resolution, names, catalog)
-    found = Found((*read, *planned.diagnostics), resolution.diagnostics, hints)
-    return _told(definitions, question, found, replace(whole, plan=planned.plan, resolution=resolution))
+    resolution = resolve(made.plan, names, catalog, made.source, question.start)
+    hints = (*left_at_once(resolution, names), *unusual(resolution, names, catalog))
+    made = replace(made, resolution=resolution, start=resolution.plan.start)
+    return _told(question, replace(found, played=resolution.diagnostics, hints=hints), made)
 
 
 def _names(catalog: Catalog) -> Names:
@@ -102,36 +96,79 @@ def _names(catalog: Catalog) -> Names:
     return Names(catalog)
 
 
-def _structure(
-    script: Script, expanded: Script, definitions: Definitions, catalog: Catalog | None
-) -> Iterator[Diagnostic]:
-    frame_rate = None if catalog is None else catalog.frame_rate
-    yield from misplaced(script)
-    for let in definitions.lets.values():
-        yield from check_definition(let, frame_rate)
-    own = tuple(let.name.text for let in definitions.lets.values())
-    yield from check_structure(expanded, frame_rate, definitions.complete, own)
+class _Reader:
+    """Finds out what pieces mean, one after the other."""
+
+    def __init__(self, question: Question, gathered: Gathered, source: Source) -> None:
+        self._question = question
+        self._source = source
+        self._gathered = gathered
+        self._expander = Expander(gathered.definitions)
+        self._own = tuple(let.name.text for let in gathered.definitions.lets.values())
+        self._frame_rate = None if question.catalog is None else question.catalog.frame_rate
+        self._planner = self._new_planner()
+
+    def _new_planner(self) -> Planner | None:
+        if self._question.names is None or self._frame_rate is None:
+            return None
+        from mlmg_lang.planning.plan import Planner
+
+        return Planner(self._gathered.definitions, self._question.names, self._frame_rate, self._source)
+
+    def defined(self) -> tuple[Diagnostic, ...]:
+        """Return what is wrong with the definitions."""
+        lets = self._gathered.definitions.lets.values()
+        structural = (one for let in lets for one in check_definition(let, self._frame_rate))
+        planner = self._new_planner()
+        if planner is not None:
+            planner.define(self._gathered.definitions)
+        return (*self._gathered.diagnostics, *structural, *(() if planner is None else planner.diagnostics))
+
+    def understood(self, piece: Piece) -> Piece:
+        """Return a piece with what it means."""
+        script = Script(piece.items, Span(piece.address, piece.address + piece.size))
+        expanded, n_nodes, said = self._expanded(piece)
+        said += misplaced(script) if piece.defining else ()
+        whole = self._gathered.definitions.complete
+        said += check_structure(replace(script, items=expanded), self._frame_rate, whole, self._own)
+        if self._planner is None:
+            said += guess_case(script)
+            return replace(piece, expanded=expanded, n_nodes=n_nodes, said=tuple(said))
+        before = len(self._planner.diagnostics)
+        statements = self._planner.body(expanded)
+        said += self._planner.diagnostics[before:]
+        return replace(piece, expanded=expanded, n_nodes=n_nodes, said=tuple(said), statements=statements)
+
+    def _expanded(self, piece: Piece) -> tuple[tuple[Item, ...], int, list[Diagnostic]]:
+        """Return what a piece says with what is defined put in, how large that has made it, and what is wrong."""
+        if not self._gathered.definitions.lets:
+            kept = tuple(item for item in piece.items if not isinstance(item, Use)) if piece.defining else piece.items
+            return kept, 0, []
+        before, n_nodes = len(self._expander.diagnostics), self._expander.all_nodes
+        items = self._expander.body(piece.items)
+        said = self._expander.diagnostics[before:]
+        return items if items != piece.items else piece.items, self._expander.all_nodes - n_nodes, said
 
 
-def _hints(resolution: Resolution, around: Resolution, names: Names, catalog: Catalog) -> tuple[Diagnostic, ...]:
-    """Return what could be better in what is played.
-
-    Parameters
-    ----------
-    around : the same with the statements beside it.
-    """
-    from mlmg_lang.planning.passing import left_at_once
-    from mlmg_lang.planning.unusual import unusual
-
-    return (*left_at_once(around, names), *unusual(resolution, names, catalog))
+def _unused(pieces: Sequence[Piece], definitions: Definitions) -> Iterator[Diagnostic]:
+    """Yield the definitions that nothing uses; what could not be read may use all."""
+    if definitions.lets and not any(map(attrgetter("broken"), pieces)):
+        used = frozenset[str]().union(*set(map(attrgetter("used"), pieces)))
+        yield from unused(all_of(pieces, "defining"), used, definitions)
 
 
-def _told(definitions: Definitions, question: Question, found: Found, made: Whole | InPieces) -> Analysis:
+def _read(made: InPieces) -> tuple[Diagnostic, ...]:
+    """Return all that is wrong with the text, the names and the types of a script."""
+    return (*made.defined, *made.unused, *all_of(made.pieces, "told"))
+
+
+def _told(question: Question, found: Found, made: InPieces) -> Analysis:
     """Return the analysis, with what is told of what has been found."""
-    source, complete = made.source, question.catalog is not None and not found.wrong
-    tokens = made.tokens if "mlmg" in source.text else ()
-    told = _sorted(suppress(found.told, tokens, source, complete))
-    return Analysis(source, definitions, told, question, found, made)
+    complete = question.catalog is not None and not found.wrong
+    speaking = compress(made.pieces, map(attrgetter("speaks"), made.pieces)) if "mlmg" in made.source.text else ()
+    tokens = made.now(tuple(all_of(speaking, "tokens")))
+    told = _sorted(suppress(made.now(found.told), tokens, made.source, complete))
+    return Analysis(told, question, found, made)
 
 
 def _sorted(diagnostics: tuple[Diagnostic, ...]) -> tuple[Diagnostic, ...]:
@@ -143,80 +180,88 @@ def _sorted(diagnostics: tuple[Diagnostic, ...]) -> tuple[Diagnostic, ...]:
 # --- what has changed ---
 
 
-def _stands_alone(analysis: Analysis) -> bool:
-    """Return whether what a line says has nothing to do with any definition, and nothing is left out."""
-    if analysis.definitions.lets or analysis.source.used or len(analysis.found.read) >= _MAX_FOUND:
-        return False
-    return isinstance(analysis.made, InPieces) or not _defines(analysis.made.script)
-
-
-def _defines(script: Script) -> bool:
-    """Return whether there is a definition or the use of a file somewhere."""
-    for item in script.items:
-        for node in walk(item) if isinstance(item, Repeat | Choose) else (item,):
-            if isinstance(node, Let | Use):
-                return True
-    return False
-
-
 def _edited(previous: Analysis, source: Source) -> Analysis | None:
     """Return the analysis after an edit; None if all has to be analysed afresh."""
-    from mlmg_lang.editing import change_of, edit_between, reread, spliced
-    from mlmg_lang.moving import by, moved
-    from mlmg_lang.planning.plan import plan
-
-    before, question = previous.pieces, previous.question
-    edit = edit_between(previous.source.text, source.text)
-    spot = reread(before, source, edit)
-    if opens_or_closes(spot.tokens):
+    question, before = previous.question, previous.ready
+    if source.used or len(previous.found.read) >= _MAX_FOUND or len(source.text) >= MAX_TOKENS:
         return None
-    parsed = parse(spot.source, spot.tokens)
-    if _defines(parsed.script):
-        return None
-    new = [*parsed.diagnostics, *_structure(parsed.script, parsed.script, previous.definitions, question.catalog)]
-    statements: tuple[Statement, ...] = ()
-    if question.catalog is None or question.names is None:
-        new += guess_case(parsed.script)
-    else:
-        rate = question.catalog.frame_rate
-        planned = plan(parsed.script, previous.definitions, question.names, rate, spot.source)
-        new += planned.diagnostics
-        statements = planned.plan.statements
-    end = before.starts[spot.end] if spot.end < len(before.pieces) else None
-    read = spliced(previous.found.read, moved(tuple(new), by(spot.start)), spot.start, end, edit)
-    change = None if len(read) >= _MAX_FOUND else change_of(before, spot, parsed.script.items, statements)
+    change = _read_again(before, source)
     if change is None:
         return None
-    if question.catalog is not None and question.names is not None:
-        return _replayed(previous, source, change, read, edit)
-    made = InPieces(source, change.pieces, change.starts, None, "", before.serial + 1)
-    return _told(previous.definitions, question, Found(read), made)
+    change = _understood_again(before, change, question)
+    found = Found(_read(change.made))
+    if len(found.read) >= _MAX_FOUND or _is_too_large(change.made):
+        return None
+    if question.names is None or question.catalog is None:
+        return _told(question, found, change.made)
+    return _replayed((question.names, question.catalog), question, found, before, change)
+
+
+def _is_too_large(made: InPieces) -> bool:
+    """Return whether what is defined is not put in everywhere."""
+    return bool(made.gathered.definitions.lets) and sum(map(attrgetter("n_nodes"), made.pieces)) > MAX_ALL_NODES
+
+
+def _read_again(before: InPieces, source: Source) -> Change | None:
+    """Return what an edit has changed, read but not understood; None if the script may use other files.
+
+    The same goes for signs that make comments of whatever stands between them.
+    """
+    from mlmg_lang.editing import Change, changed_names, edit_between, reread
+
+    spot = reread(before, source, edit_between(before.source.text, source.text))
+    if opens_or_closes(spot.tokens):
+        return None
+    parsed, size = parse(spot.source, spot.tokens), len(spot.source.text)
+    new = pieces_of(size, spot.tokens, parsed.script.items, parsed.diagnostics, before.room)[int(spot.kept) :]
+    first = spot.first + spot.kept
+    made = before.with_pieces(source, [*before.pieces[:first], *new, *before.pieces[spot.end :]], size)
+    change = Change(made, first, len(new), spot.end, frozenset(), ())
+    defining = [item for piece in (*before.pieces[first : spot.end], *new) for item in piece.defining]
+    if not defining:
+        return change
+    if any(isinstance(item, Use) for item in defining):
+        return None
+    items = tuple(all_of(made.pieces, "defining"))
+    gathered = gather_with(Script(items, Span(0, 0)), before.gathered.used)
+    names = changed_names(before.gathered.definitions, gathered.definitions)
+    return replace(change, made=replace(made, gathered=gathered), names=names)
+
+
+def _understood_again(before: InPieces, change: Change, question: Question) -> Change:
+    """Return what an edit has changed, with what it means."""
+    from mlmg_lang.editing import touched
+
+    made, numbers = change.made, touched(before, change)
+    reader = _Reader(question, made.gathered, made.addressed)
+    pieces = list(made.pieces)
+    for number in numbers:
+        pieces[number] = reader.understood(pieces[number])
+    made = replace(made, pieces=pieces)
+    if made.gathered is not before.gathered:
+        made = replace(made, defined=reader.defined())
+    if made.gathered is not before.gathered or not change.uses_the_same(before):
+        made = replace(made, unused=tuple(_unused(pieces, made.gathered.definitions)))
+    return replace(change, made=made, numbers=numbers)
 
 
 def _replayed(
-    previous: Analysis, source: Source, change: Change, read: tuple[Diagnostic, ...], edit: Edit
+    library: tuple[Names, Catalog], question: Question, found: Found, before: InPieces, change: Change
 ) -> Analysis | None:
-    """Return the analysis after an edit against a library; None if the script starts in another motion."""
-    from mlmg_lang.editing import spliced
+    """Return the analysis after an edit against a library; None where there is no more room for keys."""
+    from mlmg_lang.editing import keys_of, known_of, runs
     from mlmg_lang.planning.resolve import start_of
-    from mlmg_lang.planning.resolve_again import resolve_again
+    from mlmg_lang.planning.resolve_again import Player, keyed_between
 
-    before, question = previous.pieces, previous.question
-    assert question.catalog is not None
-    assert question.names is not None
-    assert before.played is not None
-    names, catalog = question.names, question.catalog
-    start, wrong = start_of(
-        (one for piece in change.pieces for one in piece.statements), names, catalog, question.start
-    )
-    if start != before.start:
+    made = change.made
+    keys = keyed_between(made.pieces, keys_of(before, change), runs(change.numbers), made.serial)
+    if keys is None:
         return None
-    replay = resolve_again(change, before.played, (names, catalog), source, start)
-    high = replay.high - change.further
-    end = before.starts[high] if high < len(before.pieces) else None
-    found = previous.found
-    played = spliced(found.played, replay.diagnostics, before.starts[replay.low], end, edit)
-    hints = _hints(replay.resolution, replay.around, names, catalog)
-    found = Found(read, (*wrong, *played), spliced(found.hints, hints, replay.since, end, edit))
-    made = InPieces(source, change.pieces, change.starts, replay.played, start, before.serial + 1)
-    return _told(previous.definitions, question, found, made)
+    start, wrong = start_of(all_of(made.pieces, "statements"), *library, question.start)
+    player = Player(made.pieces, made.line_of, keys, library, made.addressed, start)
+    played = player.replay(
+        known_of(before, change), runs(change.replayed if start == before.start else (0, *change.replayed))
+    )
+    told, hints = (tuple(all_of(played, name)) for name in ("told", "hints"))
+    found = replace(found, played=(*wrong, *told), hints=hints)
+    return _told(question, found, replace(made, start=start, played=played, keys=keys))

@@ -12,24 +12,24 @@ from mlmg_lang.source import Span
 T = TypeVar("T")
 
 
-def moved(value: T, place: Callable[[int], int]) -> T:
+def moved(value: T, place: Callable[[Span], Span]) -> T:
     """Return a value of frozen dataclasses and tuples with all its spans put elsewhere.
 
     Parameters
     ----------
-    place : an offset -> what it has become.
+    place : a span -> what it has become.
     """
     return cast("T", _moved(value, place))
 
 
-def by(distance: int) -> Callable[[int], int]:
-    """Return what moves every offset by the same distance."""
-    return lambda offset: offset + distance
+def by(distance: int) -> Callable[[Span], Span]:
+    """Return what moves every span by the same distance."""
+    return lambda span: Span(span.start + distance, span.end + distance)
 
 
-def _moved(value: object, place: Callable[[int], int]) -> object:
+def _moved(value: object, place: Callable[[Span], Span]) -> object:
     if isinstance(value, Span):
-        return Span(place(value.start), place(value.end))
+        return place(value)
     if isinstance(value, tuple):
         return tuple([_moved(part, place) for part in value])
     kind = type(value)

@@ -11,7 +11,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from mlmg_lang.analysis import InPieces
+from mlmg_lang.diagnostics import Diagnostic
 from mlmg_lang.front_end import Analysis, analyse, analyse_again
 from mlmg_lang.source import Source
 
@@ -28,23 +28,76 @@ LINES = (
     *("end Upper-Body\n", "wait 2 sec\n", "# c\n", "\n", "repeat 2 { IDLE; Upper-Body Talk_02 }\n", "Talk_02 once\n"),
     *("repeat 3 {\nUpper-Body TALK\nWALK or IDLE\n}\n", "choose { | Upper-Body TALK\n}\n"),
 )
+DEFINING = (
+    *(
+        "let x = WALK\n",
+        "let x = IDLE\n",
+        "let y = x or TALK\n",
+        "let G(p, t = 2 sec) = p with Upper-Body TALK for t\n",
+    ),
+    *(
+        "let H(p) = p and not x\n",
+        "let z = WLAK\n",
+        "let WALK = IDLE\n",
+        'use "a.ms"\n',
+        'use "b.ms"\n',
+        'use "no.ms"\n',
+    ),
+    *(
+        "x\n",
+        "x for 2 sec\n",
+        "y with Upper-Body SWING_HAND\n",
+        "G(x)\n",
+        "G(IDLE, 3 sec)\n",
+        "H(y) for 1 sec\n",
+        "z\n",
+    ),
+    *(
+        "xx\n",
+        "Upper-Body x\n",
+        "H(1 sec)\n",
+        "of_a for 1 sec\n",
+        "of_b\n",
+        "repeat 2 {\n x\n let q = IDLE\n}\n",
+        "q\n",
+    ),
+)
+USED = {
+    "a.ms": 'let of_a = TALK or IDLE\nlet unlike = of_b\nuse "b.ms"\n',
+    "b.ms": "let of_b = WALK\nlet y = WLAK # mlmg: ignore[MS070]\n",
+}
 BITS = (
     *LINES,
+    *DEFINING,
     *(" ", "\n", "\r", "\r\n", "{", "}", "(", ")", "|", ";", ":", '"', "# x", "W", "_", "1", "”", "-", "\\", "=", ","),
     *("/*", "*/", "// ", " -- ", "\uff08", "\uff09", "\uff5b", "\uff5d", "\uff1b", "\uff03", "\uff12", "loop 2 {\n"),
     *("repeat 2 {\n", "choose {\n", "with TALK\n", "WLAK\n", "walk01\n", "let x = WALK\n", "# mlmg: ignore[MS047]\n"),
 )
 EDITS = st.lists(st.tuples(st.integers(0, 10_000), st.integers(0, 9), st.sampled_from(("", *BITS))), max_size=8)
 LINE_EDITS = st.lists(st.tuples(st.integers(0, 10_000), st.integers(0, 2), st.sampled_from(LINES)), max_size=6)
+DEFINING_EDITS = st.lists(
+    st.tuples(st.integers(0, 10_000), st.integers(0, 2), st.sampled_from(("", *LINES, *DEFINING))), max_size=6
+)
 GENERATED = run_path(str(Path(__file__).parent / "scripts_strategy.py"))["scripts"]()
+DEFINED = st.lists(st.sampled_from((*LINES, *DEFINING, *DEFINING)), max_size=30).map("".join)
 PLAYABLE = st.lists(st.sampled_from(LINES), max_size=30).map("".join)
 LIBRARIES = st.sampled_from(("none", "reference", "left-hand", "hands", "cut", "far"))
 many = settings(max_examples=150, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
 
 
+class Used:
+    """The files of `USED`."""
+
+    def find(self, path: str, user: str) -> tuple[Source, tuple[Diagnostic, ...]] | str:
+        return (Source(USED[path], path), ()) if path in USED else "it does not exist"
+
+
+FILES = Used()
+
+
 def check(before: Analysis, text: str, library: Any, start: str | None = None) -> Analysis:
     """Return the analysis after an edit, when it has been compared with a fresh one."""
-    again, fresh = analyse_again(before, Source(text)), analyse(Source(text), library, start)
+    again, fresh = analyse_again(before, Source(text)), analyse(Source(text), library, start, FILES)
     for stage in STAGES:
         assert getattr(again, stage) == getattr(fresh, stage), stage
     return again
@@ -68,7 +121,7 @@ def with_other_lines(text: str, edit: tuple[int, int, str]) -> str:
 def test_after_any_edits_all_is_as_if_analysed_afresh(
     libraries: Mapping[str, Any], text: str, edits: list[tuple[int, int, str]], name: str
 ) -> None:
-    analysis = analyse(Source(text), libraries[name])
+    analysis = analyse(Source(text), libraries[name], None, FILES)
     for edit in edits:
         text = edited(text, edit)
         analysis = check(analysis, text, libraries[name])
@@ -85,10 +138,21 @@ def test_after_other_commands_all_is_played_as_if_analysed_afresh(
         analysis = check(analysis, text, libraries[name], start)
 
 
+@many
+@given(text=DEFINED, edits=DEFINING_EDITS, name=LIBRARIES)
+def test_after_other_definitions_all_is_as_if_analysed_afresh(
+    libraries: Mapping[str, Any], text: str, edits: list[tuple[int, int, str]], name: str
+) -> None:
+    analysis = analyse(Source(text), libraries[name], None, FILES)
+    for edit in edits:
+        text = with_other_lines(text, edit)
+        analysis = check(analysis, text, libraries[name])
+
+
 @pytest.mark.parametrize("text", STORED)
 def test_line_ends_may_change_all_at_once(libraries: Mapping[str, Any], text: str) -> None:
     library = libraries["reference"]
-    analysis = analyse(Source(text), library)
+    analysis = analyse(Source(text), library, None, FILES)
     analysis = check(analysis, text.replace("\n", "\r\n"), library)
     check(analysis, text, library)
 
@@ -97,9 +161,43 @@ def test_only_what_an_edit_touches_is_read_again(libraries: Mapping[str, Any]) -
     text = "WALK for 2 sec\nIDLE for 2 sec\n" * 50
     before = analyse(Source(text), libraries["reference"])
     again = check(before, text[:1500] + text[1500:].replace("2", "3", 1), libraries["reference"])
-    assert isinstance(again.made, InPieces)
-    kept = {id(piece) for piece in before.pieces.pieces}
-    assert sum(id(piece) not in kept for piece in again.made.pieces) == 1
+    assert n_kept(before, again) == len(before.ready.pieces) - 1
+
+
+def n_kept(before: Analysis, again: Analysis) -> int:
+    """Return how many pieces are the very same."""
+    kept = {id(piece) for piece in before.ready.pieces}
+    return sum(id(piece) in kept for piece in again.ready.pieces)
+
+
+def test_an_edit_in_a_script_with_definitions_leaves_all_else_as_it_was(libraries: Mapping[str, Any]) -> None:
+    text = 'use "a.ms"\nlet x = WALK\nlet y = TALK\n' + "x for 2 sec\ny for 2 sec\nof_a for 2 sec\n" * 30
+    before = analyse(Source(text), libraries["reference"], None, FILES)
+    again = check(before, text[:900] + text[900:].replace("2", "3", 1), libraries["reference"])
+    assert n_kept(before, again) == len(before.ready.pieces) - 1
+
+
+def test_the_edit_of_a_definition_changes_what_uses_it_and_no_more(libraries: Mapping[str, Any]) -> None:
+    text = (
+        "let x = WALK\nlet z = not x\n"
+        + "TALK for 2 sec\n" * 20
+        + "x for 2 sec\nz for 1 sec\n"
+        + "TALK for 2 sec\n" * 20
+    )
+    before = analyse(Source(text), libraries["reference"])
+    again = check(before, text.replace("WALK", "IDLE", 1), libraries["reference"])
+    assert n_kept(before, again) == len(before.ready.pieces) - 3
+
+
+def test_behind_an_open_parenthesis_lines_stay_as_they_are_until_it_is_closed(libraries: Mapping[str, Any]) -> None:
+    library, text = libraries["reference"], "WALK for 2 sec\n" * 20
+    before = analyse(Source(text), library)
+    again = check(before, text.replace("WALK", "(WALK", 1), library)
+    assert n_kept(before, again) == len(before.ready.pieces) - 1
+    third = check(again, again.source.text + "IDLE\n", library)
+    assert n_kept(again, third) == len(again.ready.pieces) - 1
+    closed = check(third, third.source.text + ")\n", library)
+    assert len(closed.ready.pieces) == 1
 
 
 def test_what_a_later_line_asks_is_told_with_its_line_as_it_is_now(libraries: Mapping[str, Any]) -> None:
@@ -112,7 +210,7 @@ def test_what_a_later_line_asks_is_told_with_its_line_as_it_is_now(libraries: Ma
 
 def test_a_line_typed_again_and_again_in_the_same_place_is_still_kept_apart(libraries: Mapping[str, Any]) -> None:
     library, text = libraries["reference"], "WALK for 2 sec\nIDLE for 2 sec\n"
-    analysis = analyse(Source(text), library)
+    analysis = analyse(Source(text), library, None, FILES)
     for _ in range(60):
         text = text.replace("IDLE", "Upper-Body TALK\nIDLE", 1)
         analysis = check(analysis, text, library)

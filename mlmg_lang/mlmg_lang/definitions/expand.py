@@ -5,7 +5,7 @@ Nodes keep their spans: what comes out of a definition is found where that is wr
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from typing import TypeAlias
 
@@ -49,9 +49,10 @@ def expand(script: syntax.Script, definitions: Definitions) -> Expanded:
     if not definitions.lets:
         kept = tuple(item for item in script.items if not isinstance(item, syntax.Use))
         return Expanded(script if len(kept) == len(script.items) else replace(script, items=kept), ())
-    expander = _Expander(definitions)
+    expander = Expander(definitions)
     items = expander.body(script.items)
-    return Expanded(replace(script, items=items), (*expander.diagnostics, *_unused(script, definitions)))
+    remarks = () if any_broken(script.items) else unused(script.items, used_names(script.items), definitions)
+    return Expanded(replace(script, items=items), (*expander.diagnostics, *remarks))
 
 
 def told_from(one: Diagnostic, command: Span) -> Diagnostic:
@@ -61,27 +62,43 @@ def told_from(one: Diagnostic, command: Span) -> Diagnostic:
     return replace(one, notes=(*one.notes, Note("it is used here", command)))
 
 
-def _unused(script: syntax.Script, definitions: Definitions) -> Iterator[Diagnostic]:
-    """Yield the definitions of a script that nothing in it uses; what could not be read may use all.
+def any_broken(items: Iterable[syntax.Item]) -> bool:
+    """Return whether some of a script could not be read: that may use all definitions."""
+    return any(isinstance(node, syntax.Broken) for item in items for node in syntax.walk(item))
+
+
+def used_names(items: Iterable[syntax.Item]) -> frozenset[str]:
+    """Return the names, in NFC, that statements use, be they those of definitions or not; no names without statements.
+
+    An empty one stands for statements that use none.
+    """
+    statements = [item for item in items if not isinstance(item, syntax.Let | syntax.Use)]
+    nodes = (node for item in statements for node in syntax.walk(item))
+    found = {normal(node.name.text) for node in nodes if isinstance(node, syntax.Reference | syntax.Call)}
+    return frozenset(found | {""} if statements else ())
+
+
+def unused(items: Iterable[syntax.Item], used: Iterable[str], definitions: Definitions) -> Iterator[Diagnostic]:
+    """Yield the definitions of a script that nothing in it uses.
 
     A script of nothing but definitions is there for others to use.
+
+    Parameters
+    ----------
+    items : of the script; those that are no definitions do not matter.
+    used : the names that its statements use.
     """
-    used: set[str] = set()
-    statements = [item for item in script.items if not isinstance(item, syntax.Let | syntax.Use)]
-    if not statements or any(isinstance(node, syntax.Broken) for node in syntax.walk(script)):
+    known = set(used)
+    if not known:
         return
-    for statement in statements:
-        for node in syntax.walk(statement):
-            if isinstance(node, syntax.Reference | syntax.Call):
-                used.add(normal(node.name.text))
-    names = list(used)
+    names = list(known)
     while names:
         let = definitions.lets.get(names.pop())
-        fresh = {normal(name.text) for name in references(let)} - used if let else set()
-        used |= fresh
+        fresh = {normal(name.text) for name in references(let)} - known if let else set()
+        known |= fresh
         names += fresh
-    for item in script.items:
-        if isinstance(item, syntax.Let) and item.name.sound and normal(item.name.text) not in used:
+    for item in items:
+        if isinstance(item, syntax.Let) and item.name.sound and normal(item.name.text) not in known:
             message = f"`{item.name.text}` is defined, but not used"
             yield Diagnostic("MS054", message, item.name.span, "take it out, or use it")
 
@@ -91,7 +108,7 @@ class _Failed(Exception):
 
 
 @dataclass(slots=True)
-class _Expander:
+class Expander:
     """Puts in what is defined.
 
     Attributes
@@ -113,6 +130,7 @@ class _Expander:
     # --- statements ---
 
     def body(self, items: tuple[syntax.Item, ...]) -> tuple[syntax.Item, ...]:
+        """Return the statements of a body with all that is defined put in."""
         return tuple(self._item(item) for item in items if not isinstance(item, syntax.Let | syntax.Use))
 
     def _item(self, item: syntax.Item) -> syntax.Item:

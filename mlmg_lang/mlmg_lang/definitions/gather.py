@@ -17,7 +17,7 @@ from mlmg_lang.spelling import normal
 MAX_FILES = 100
 """The most files that a script may use, itself and by way of others."""
 
-__all__ = ["Definitions", "Files", "Gathered", "Kind", "Kinds", "NoFiles", "Signature", "gather"]
+__all__ = ["Definitions", "Files", "Gathered", "Kind", "Kinds", "NoFiles", "Signature", "Used", "gather", "gather_with"]
 
 
 class Files(Protocol):
@@ -61,49 +61,78 @@ class Definitions:
 
 
 @dataclass(frozen=True, slots=True)
+class Used:
+    """The files that a script uses, itself and by way of others, with what is wrong with them.
+
+    Attributes
+    ----------
+    source : the script, with these files.
+    complete : False if one could not be used.
+    """
+
+    source: Source
+    scripts: tuple[syntax.Script, ...]
+    complete: bool
+    diagnostics: tuple[Diagnostic, ...]
+
+
+@dataclass(frozen=True, slots=True)
 class Gathered:
-    """Definitions, with the source that has the used files with it, and what is wrong with all this."""
+    """Definitions, with the files that some of them are from, and what is wrong with all this."""
 
     definitions: Definitions
-    source: Source
+    used: Used
     diagnostics: tuple[Diagnostic, ...]
+
+    @property
+    def source(self) -> Source:
+        """Return the script, with the files that it uses."""
+        return self.used.source
 
 
 def gather(source: Source, script: syntax.Script, files: Files) -> Gathered:
     """Return the definitions that a script can use. Whatever it says, this does not fail."""
-    gatherer = _Gatherer(source, files)
-    gatherer.use(script, source.name, ())
-    lets = dict(gatherer.lets)
+    opener = _Opener(source, files)
+    opener.use(script, source.name, ())
+    used = Used(opener.source, tuple(opener.scripts), opener.complete, tuple(opener.diagnostics))
+    return gather_with(script, used)
+
+
+def gather_with(script: syntax.Script, used: Used) -> Gathered:
+    """Return the definitions of a script that uses these files."""
+    lets: dict[str, syntax.Let] = {}
+    twice = [one for part in (script, *used.scripts) for one in _defined(part, lets)]
     found, wrong = signatures(lets)
-    definitions = Definitions(lets, found, gatherer.complete)
-    return Gathered(definitions, gatherer.source, (*gatherer.diagnostics, *wrong))
+    return Gathered(Definitions(lets, found, used.complete), used, (*used.diagnostics, *twice, *wrong))
+
+
+def _defined(script: syntax.Script, lets: dict[str, syntax.Let]) -> Iterator[Diagnostic]:
+    """Take the definitions of one file; those in braces too, as these have been reported, and are used."""
+    for item in _lets(script):
+        if not item.name.sound:
+            continue
+        first = lets.setdefault(normal(item.name.text), item)
+        if first is not item:
+            message = f"`{item.name.text}` is defined twice"
+            note = Note("it is defined here first", first.name.span)
+            yield Diagnostic("MS050", message, item.name.span, "give one of them another name", (note,))
 
 
 @dataclass(slots=True)
-class _Gatherer:
+class _Opener:
+    """Opens the files that are used; for its values see `Used`."""
+
     source: Source
     files: Files
     complete: bool = True
-    lets: dict[str, syntax.Let] = field(default_factory=dict)
+    scripts: list[syntax.Script] = field(default_factory=list)
     diagnostics: list[Diagnostic] = field(default_factory=list)
 
     def use(self, script: syntax.Script, name: str, users: Sequence[str]) -> None:
-        """Take the definitions of a file, and of the files that it uses."""
-        self.diagnostics += self._defined(script)
+        """Open the files that a file uses, and those that they use."""
         for item in script.items:
             if isinstance(item, syntax.Use) and item.path.sound:
                 self._open(item, name, (*users, name))
-
-    def _defined(self, script: syntax.Script) -> Iterator[Diagnostic]:
-        """Take the definitions of one file; those in braces too, as these have been reported, and are used."""
-        for item in _lets(script):
-            if not item.name.sound:
-                continue
-            first = self.lets.setdefault(normal(item.name.text), item)
-            if first is not item:
-                message = f"`{item.name.text}` is defined twice"
-                note = Note("it is defined here first", first.name.span)
-                yield Diagnostic("MS050", message, item.name.span, "give one of them another name", (note,))
 
     def _open(self, use: syntax.Use, user: str, users: Sequence[str]) -> None:
         found = self.files.find(use.path.text, user)
@@ -123,6 +152,7 @@ class _Gatherer:
             self.source = replace(self.source, used=(*self.source.used, file))
             parsed = parse(self.source, tokenize(self.source, base), base)
             self.diagnostics += parsed.diagnostics
+            self.scripts.append(parsed.script)
             self.use(parsed.script, file.name, users)
 
     def _refuse(self, use: syntax.Use, code: str, message: str, advice: str | None) -> None:

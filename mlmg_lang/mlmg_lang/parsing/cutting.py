@@ -1,7 +1,7 @@
 """Tokens -> where a script may be cut so that each piece means by itself what it means in the whole.
 
 A piece is one or more whole lines: the comments and empty lines before a statement, the statement, and whatever layout
-could join to it: lines that go on, a whole block, and all after a parenthesis that has no partner yet.
+joins to it: lines that go on, a whole block, and all between a parenthesis and its partner.
 """
 
 from __future__ import annotations
@@ -9,8 +9,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from mlmg_lang.parsing.layout import inside_parentheses
 from mlmg_lang.parsing.lookalikes import as_meant
-from mlmg_lang.parsing.tokens import CONTINUES, OPENS_STATEMENT, Token
+from mlmg_lang.parsing.tokens import CONTINUES, ENDS_PARENTHESES, OPENS_STATEMENT, Token
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,30 +32,50 @@ def cut(tokens: Sequence[Token]) -> Cuts:
     """Return where a text may be cut. Every piece but the last has a token that is neither comment nor line end."""
     starts: list[int] = []
     end: int | None = None
-    depth = n_open = 0
-    first, empty = True, True
-    for token in as_meant(tokens):
+    depth = 0
+    empty = True
+    meant = as_meant(tokens)
+    for token, inside in zip(meant, inside_parentheses(meant), strict=True):
         kind = token.type
         if kind == "NEWLINE":
-            if depth == n_open == 0 and not empty and end is None:
+            if depth == 0 and not inside and not empty and end is None:
                 end = token.span.end
-            first = True
-            continue
-        if kind == "COMMENT":
-            continue
-        if end is not None and kind not in CONTINUES and kind != "OPEN":
-            starts.append(end)
-        end, empty = None, False
-        if kind in _ENDS_PARENTHESES or (first and kind in OPENS_STATEMENT):
-            n_open = 0
+        elif kind != "COMMENT":
+            if end is not None and kind not in CONTINUES and kind != "OPEN":
+                starts.append(end)
+            end, empty = None, False
             depth = max(0, depth + (kind == "OPEN") - (kind == "CLOSE"))
-        elif kind == "LEFT":
-            n_open += 1
-        elif kind == "RIGHT":
-            n_open = max(0, n_open - 1)
-        first = False
-    closed = depth == n_open == 0 and bool(tokens) and tokens[-1].type == "NEWLINE"
+    closed = depth == 0 and bool(tokens) and tokens[-1].type == "NEWLINE"
     return Cuts(tuple(starts), closed)
 
 
-_ENDS_PARENTHESES = frozenset({"SEMICOLON", "OPEN", "CLOSE", "BAR"})
+@dataclass(frozen=True, slots=True)
+class Balance:
+    """The parentheses of some whole lines that may have their partners in others.
+
+    Attributes
+    ----------
+    n_closing : those that could close one before these lines. n_open : those that could be closed after them.
+    parts : whether no parenthesis before these lines can have its partner after them.
+    """
+
+    n_closing: int
+    n_open: int
+    parts: bool
+
+
+def balance(tokens: Sequence[Token]) -> Balance:
+    """Return what parentheses are left without a partner in some whole lines."""
+    n_closing = n_open = 0
+    parts, first = False, True
+    for token in as_meant(tokens):
+        kind = token.type
+        if kind in ENDS_PARENTHESES or (first and kind in OPENS_STATEMENT):
+            n_open, parts = 0, True
+        elif kind == "LEFT":
+            n_open += 1
+        elif kind == "RIGHT":
+            n_closing += n_open == 0 and not parts
+            n_open = max(0, n_open - 1)
+        first = kind == "NEWLINE" or (first and kind == "COMMENT")
+    return Balance(n_closing, n_open, parts)

@@ -12,7 +12,7 @@ from itertools import accumulate
 
 from mlmg_lang.diagnostics import Diagnostic, Fix
 from mlmg_lang.parsing.foreign import other_word
-from mlmg_lang.parsing.tokens import CONTINUES, OPENS_STATEMENT, Token
+from mlmg_lang.parsing.tokens import CONTINUES, ENDS_PARENTHESES, OPENS_STATEMENT, Token
 from mlmg_lang.source import Span
 
 MAX_DEPTH = 64
@@ -53,7 +53,7 @@ class Layout:
 def lay_out(tokens: Sequence[Token]) -> Layout:
     """Return the lines and blocks of a script, and what is wrong with its braces."""
     cutter = _Cutter()
-    for token, inside in zip(tokens, _inside_parentheses(tokens), strict=True):
+    for token, inside in zip(tokens, inside_parentheses(tokens), strict=True):
         if token.type == "NEWLINE":
             cutter.line_ended = cutter.line_ended or not inside
         elif token.type != "COMMENT":
@@ -61,13 +61,13 @@ def lay_out(tokens: Sequence[Token]) -> Layout:
     return cutter.finish()
 
 
-def _inside_parentheses(tokens: Sequence[Token]) -> Iterator[bool]:
+def inside_parentheses(tokens: Sequence[Token]) -> Iterator[bool]:
     """Yield for each token whether a matched pair of parentheses is open before it."""
     steps = [0] * len(tokens)
     opened: list[int] = []
     first = True
     for at, token in enumerate(tokens):
-        if token.type in ("SEMICOLON", "OPEN", "CLOSE", "BAR") or (first and token.type in OPENS_STATEMENT):
+        if token.type in ENDS_PARENTHESES or (first and token.type in OPENS_STATEMENT):
             opened.clear()
         elif token.type == "LEFT":
             opened.append(at)

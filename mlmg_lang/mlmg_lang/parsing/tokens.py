@@ -13,6 +13,8 @@ JOINERS: Final = frozenset({"WITH", "AND", "OR", "NOT"})
 CONTINUES: Final = frozenset({"WITH", "AND", "OR", "FOR", "ONCE"})
 """What a line starts with if it goes on with the last one."""
 OPENS_STATEMENT: Final = frozenset({"LET", "USE", "REPEAT", "CHOOSE", "WAIT", "END"})
+ENDS_PARENTHESES: Final = frozenset({"SEMICOLON", "OPEN", "CLOSE", "BAR"})
+"""What no parenthesis has its partner behind."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -38,19 +38,19 @@ def plan(script: syntax.Script, definitions: Definitions, names: Names, frame_ra
     ----------
     definitions : those of the script; what is wrong with their names is reported where they stand.
     """
-    scope = Scope(names, frozenset(), not definitions.complete, own=definitions.lets)
-    planner = _Planner(scope, frame_rate, source)
+    planner = Planner(definitions, names, frame_rate, source)
     planner.define(definitions)
     statements = planner.body(script.items)
     return Planned(typed.TypedPlan(statements), tuple(planner.diagnostics))
 
 
-class _Planner:
+class Planner:
     """Gives statements their types, and collects what is wrong."""
 
-    def __init__(self, scope: Scope, frame_rate: float, source: Source) -> None:
+    def __init__(self, definitions: Definitions, names: Names, frame_rate: float, source: Source) -> None:
+        """Take what names can mean; the definitions have been put in already."""
         self.diagnostics: list[Diagnostic] = []
-        self._scope = scope
+        self._scope = Scope(names, frozenset(), not definitions.complete, own=definitions.lets)
         self._frame_rate = frame_rate
         self._source = source
 

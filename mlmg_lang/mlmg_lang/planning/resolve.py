@@ -42,6 +42,7 @@ class Resolution:
 
     Attributes
     ----------
+    wrong : what is wrong with the start. told : by step, what is wrong with it.
     states : what may be playing before each statement that holds no others, by its span.
     reached : by step, what could be playing before it when it was first taken.
     sound : the steps that no later one has ever gone back over: with that alone, all from there comes out the same.
@@ -49,11 +50,17 @@ class Resolution:
     """
 
     plan: resolved.ResolvedPlan
-    diagnostics: tuple[Diagnostic, ...]
+    wrong: tuple[Diagnostic, ...]
+    told: Mapping[int, Diagnostic]
     states: Mapping[Span, flow.State]
     reached: Sequence[flow.State]
     sound: Sequence[int]
     joins: int | None = None
+
+    @property
+    def diagnostics(self) -> tuple[Diagnostic, ...]:
+        """Return all that is wrong, in the order of the text."""
+        return (*self.wrong, *(self.told[step] for step in sorted(self.told)))
 
     @property
     def bodies(self) -> Iterator[tuple[resolved.Statement, ...]]:
@@ -120,14 +127,13 @@ def resolve_part(
 def _resolution(
     statements: Sequence[typed.Statement], resolver: _Resolver, wrong: tuple[Diagnostic, ...]
 ) -> Resolution:
-    told = (diagnostic for _, diagnostic in sorted(resolver.told.items()))
     playable = resolved.ResolvedPlan(resolver.source, resolver.start, _rebuilt(statements, resolver.done))
     states = {
         step.statement.span: state
         for step, state in zip(resolver.steps, resolver.entered, strict=True)
         if step.statement is not None and state is not None
     }
-    return Resolution(playable, (*wrong, *told), states, resolver.reached, resolver.sound, resolver.joins)
+    return Resolution(playable, wrong, resolver.told, states, resolver.reached, resolver.sound, resolver.joins)
 
 
 def _rebuilt(

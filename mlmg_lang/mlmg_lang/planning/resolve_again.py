@@ -1,24 +1,25 @@
 """What pieces play, after some of them have changed: from what is known of the others, only what may differ.
 
-Before the change all stays as it is up to the last place that no later step has ever gone back over; after it,
+Before a change all stays as it is up to the last place that no later step has ever gone back over; after it,
 commands are resolved again until what may be playing is what could be playing there before.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from itertools import accumulate
+from itertools import accumulate, pairwise
 
 from mlmg_lang.catalog import Catalog
 from mlmg_lang.diagnostics import Diagnostic
-from mlmg_lang.moving import by, moved
-from mlmg_lang.planning import flow, resolved, typed
+from mlmg_lang.pieces import Piece
+from mlmg_lang.planning import flow, resolved
 from mlmg_lang.planning.chart import chart
 from mlmg_lang.planning.names import Names
-from mlmg_lang.planning.pieces import Piece, Played, played_of
+from mlmg_lang.planning.passing import left_at_once
 from mlmg_lang.planning.resolve import GAP, ReachesBack, Resolution, resolve_part
-from mlmg_lang.source import Source
+from mlmg_lang.planning.unusual import unusual
+from mlmg_lang.source import Source, Span
 
 _SERIALS = 1 << 24
 """So many times pieces may change until keys are given out afresh."""
@@ -27,87 +28,172 @@ _STEP = 1 << 120
 
 
 @dataclass(frozen=True, slots=True)
-class Change:
-    """Pieces that have taken the place of others.
+class Played:
+    """What a piece plays.
 
     Attributes
     ----------
-    pieces, starts : all of the script, and where they begin; last, where it ends.
-    first, end : which of them are new.
-    further : how many pieces further down those after them have come.
+    line : on which it began when that was found out.
+    before : what could be playing before its first step when that was first taken; None if no step comes any more.
+    sound : whether with that alone, all from there comes out the same.
+    states : what may be playing before each of its statements that holds no others; others may be with them.
+    told : what is wrong with that. hints : what could be better.
     """
 
-    pieces: Sequence[Piece]
-    starts: Sequence[int]
-    first: int
-    end: int
-    further: int
+    statements: tuple[resolved.Statement, ...]
+    line: int
+    before: flow.State | None
+    sound: bool
+    states: Mapping[Span, flow.State]
+    told: tuple[Diagnostic, ...]
+    hints: tuple[Diagnostic, ...]
+
+
+NOT_PLAYED = Played((), 1, None, False, {}, (), ())
+"""In place of what is not known yet."""
+
+
+def keyed(pieces: Sequence[Piece]) -> list[range]:
+    """Return keys for the steps of all pieces."""
+    ends = list(accumulate((GAP * len(chart(piece.statements)) for piece in pieces), initial=GAP))
+    return [range(first, end, GAP) for first, end in pairwise(ends)]
+
+
+def keyed_between(
+    pieces: Sequence[Piece], known: Sequence[range], runs: Iterable[range], serial: int
+) -> list[range] | None:
+    """Return the keys of all pieces, where some get such as none has had, between those around; None without room.
+
+    Parameters
+    ----------
+    known : the keys so far. runs : the pieces that get others.
+    serial : how many times pieces have changed.
+    """
+    keys = list(known)
+    for run in runs:
+        n_steps = [len(chart(pieces[at].statements)) for at in run]
+        low = next((keys[at][-1] for at in reversed(range(run.start)) if keys[at]), 0) // _SERIALS
+        after = (keys[at][0] // _SERIALS for at in range(run.stop, len(keys)) if keys[at])
+        step = min((next(after, low + GAP) - low) // (sum(n_steps) + 1), _STEP)
+        if step == 0 or serial >= _SERIALS:
+            return None
+        ends = [(low + step * n) * _SERIALS + serial for n in accumulate(n_steps, initial=1)]
+        keys[run.start : run.stop] = [range(first, end, step * _SERIALS) for first, end in pairwise(ends)]
+    return keys
+
+
+def played_of(
+    pieces: Sequence[Piece], lines: Iterable[int], keys: Sequence[range], resolution: Resolution
+) -> list[Played]:
+    """Return what pieces play that have been resolved together, without hints.
+
+    Parameters
+    ----------
+    lines : on which the pieces begin.
+    """
+    sound, reached = frozenset(resolution.sound), resolution.reached
+    by_span = {statement.span: statement for statement in resolution.plan.statements}
+    played = []
+    number = 0
+    for piece, line, own in zip(pieces, lines, keys, strict=True):
+        statements = tuple(by_span[one.span] for one in piece.statements if one.span in by_span)
+        before = reached[number] if number < len(reached) else None
+        steps = range(number, number + len(own))
+        told = tuple(resolution.told[step] for step in steps if step in resolution.told)
+        played.append(Played(statements, line, before, number in sound, resolution.states, told, ()))
+        number = steps.stop
+    return played
 
 
 @dataclass(frozen=True, slots=True)
-class Replay:
-    """What has been resolved again.
+class Player:
+    """Resolves pieces of a script again.
 
     Attributes
     ----------
-    low, high : the first piece of it, and the one behind the last.
-    diagnostics : of these pieces.
-    resolution : of these pieces, with the statement before them if that is a command.
-    around : the same with the statement behind them too, if that is a command.
-    since : where `resolution` begins.
+    line_of : the line on which a piece begins. keys : of the steps of each.
+    start : the motion that the script starts in.
     """
 
-    played: list[Played]
-    low: int
-    high: int
-    diagnostics: tuple[Diagnostic, ...]
-    resolution: Resolution
-    around: Resolution
-    since: int
+    pieces: Sequence[Piece]
+    line_of: Callable[[int], int]
+    keys: Sequence[range]
+    library: tuple[Names, Catalog]
+    source: Source
+    start: str
 
+    def replay(self, known: Sequence[Played], changed: Iterable[range]) -> list[Played]:
+        """Return what all pieces play.
 
-def keyed(new: Sequence[Piece], before: Sequence[Piece], after: Sequence[Piece], serial: int) -> list[Piece] | None:
-    """Return new pieces with keys between those of the pieces around them that no piece has had; None without room.
+        Parameters
+        ----------
+        known : what they played before; of those that have changed, only what could be playing before the first.
+        changed : the pieces that have, in order.
+        """
+        played, parts, done = list(known), list[range](), 0
+        for run in changed:
+            if run.stop > done:
+                part = self._play(played, max(run.start, done), run.stop)
+                parts.append(part)
+                done = part.stop
+        return self.hinted(played, parts)
 
-    Parameters
-    ----------
-    serial : how many times pieces have changed.
-    """
-    n_steps = [len(chart(piece.statements)) for piece in new]
-    low = next((piece.keys[-1] for piece in reversed(before) if piece.keys), 0) // _SERIALS
-    high = next((piece.keys[0] // _SERIALS for piece in after if piece.keys), low + GAP)
-    step = min((high - low) // (sum(n_steps) + 1), _STEP)
-    if step == 0 or serial >= _SERIALS:
-        return None
-    firsts = accumulate(n_steps, initial=1)
-    numbered = (
-        range((low + step * at) * _SERIALS + serial, (low + step * (at + n)) * _SERIALS + serial, step * _SERIALS)
-        for at, n in zip(firsts, n_steps, strict=False)
-    )
-    return [replace(piece, keys=keys) for piece, keys in zip(new, numbered, strict=True)]
+    def _play(self, played: list[Played], first: int, end: int) -> range:
+        """Resolve pieces that have changed, and others as far as they may play something else; return all these."""
+        low, width = _sound_before(first, played), 4
+        while True:
+            high = min(end + width, len(self.pieces))
+            try:
+                resolution, high = self._resolved(range(low, high), end, played)
+            except ReachesBack as back:
+                low = _sound_before(_holder(back.key, self.keys, low), played)
+                continue
+            if resolution.joins is not None or high == len(self.pieces):
+                lines = map(self.line_of, range(low, high))
+                played[low:high] = played_of(self.pieces[low:high], lines, self.keys[low:high], resolution)
+                return range(low, high)
+            width *= 4
 
+    def _resolved(self, part: range, end: int, known: Sequence[Played]) -> tuple[Resolution, int]:
+        """Return what some pieces play, and at which piece all from there is known."""
+        pieces = self.pieces[part.start : part.stop]
+        own = self.keys[part.start : part.stop]
+        first_steps = list(accumulate(map(len, own), initial=0))
+        states: dict[int, flow.State] = {}
+        joined_at: dict[int, int] = {}
+        for at in range(end, part.stop):
+            once, number = known[at], first_steps[at - part.start]
+            if once.sound and once.before is not None:
+                states[number] = once.before
+                joined_at.setdefault(number, at)
+        before = known[part.start].before if part.start else None
+        state = flow.begin(self.library[0], self.start) if before is None else before
+        statements = [one for piece in pieces for one in piece.statements]
+        steps = [key for keys in own for key in keys]
+        resolution = resolve_part(statements, self.library, self.source, (self.start, state), steps, states)
+        return resolution, part.stop if resolution.joins is None else joined_at[resolution.joins]
 
-def resolve_again(
-    change: Change, known: Sequence[Played], library: tuple[Names, Catalog], source: Source, start: str
-) -> Replay:
-    """Return what a script plays after a change.
+    def hinted(self, played: Sequence[Played], parts: Iterable[range]) -> list[Played]:
+        """Return what pieces play, with what could be better in some of them, and in the last statement before each."""
+        found = list(played)
+        for part in parts:
+            before = next((at for at in reversed(range(part.start)) if played[at].statements), None)
+            for at in (*([] if before is None else [before]), *part):
+                if played[at].statements:
+                    found[at] = replace(played[at], hints=self._hints(played, at))
+        return found
 
-    Parameters
-    ----------
-    known : what the pieces before the change have played.
-    start : the motion that the script starts in, then and now.
-    """
-    low, width = _sound_before(change.first, known), 4
-    while True:
-        high = min(change.end + width, len(change.pieces))
-        try:
-            resolution, high = _resolved(change, (low, high), known, library, source, start)
-        except ReachesBack as back:
-            low = _sound_before(_holder(back.key, change.pieces, low), known)
-            continue
-        if resolution.joins is not None or high == len(change.pieces):
-            return _replay(change, (low, high), known, resolution, source, start)
-        width *= 4
+    def _hints(self, played: Sequence[Played], at: int) -> tuple[Diagnostic, ...]:
+        own, states = played[at].statements, played[at].states
+        later = (played[number].statements for number in range(at + 1, len(played)))
+        following = next((statements[0] for statements in later if statements), None)
+        beside = (*own, following) if isinstance(following, resolved.Command) else own
+        alone, around = (
+            Resolution(resolved.ResolvedPlan(self.source, self.start, part), (), {}, states, (), ())
+            for part in (own, beside)
+        )
+        names, catalog = self.library
+        return (*left_at_once(around, names), *unusual(alone, names, catalog))
 
 
 def _sound_before(at: int, known: Sequence[Played]) -> int:
@@ -115,65 +201,6 @@ def _sound_before(at: int, known: Sequence[Played]) -> int:
     return next((n for n in range(min(at, len(known) - 1), 0, -1) if known[n].sound), 0)
 
 
-def _holder(key: int, pieces: Sequence[Piece], before: int) -> int:
+def _holder(key: int, keys: Sequence[range], before: int) -> int:
     """Return the piece that has a step."""
-    return next(at for at in range(before - 1, -1, -1) if key in pieces[at].keys)
-
-
-def _resolved(
-    change: Change,
-    part: tuple[int, int],
-    known: Sequence[Played],
-    library: tuple[Names, Catalog],
-    source: Source,
-    start: str,
-) -> tuple[Resolution, int]:
-    """Return what some pieces play, and at which piece all from there is known."""
-    low, high = part
-    pieces = change.pieces[low:high]
-    statements = [one for piece, at in zip(pieces, change.starts[low:], strict=False) for one in _typed(piece, at)]
-    keys = [key for piece in pieces for key in piece.keys]
-    first_steps = list(accumulate((len(piece.keys) for piece in pieces), initial=0))
-    states: dict[int, flow.State] = {}
-    joined_at: dict[int, int] = {}
-    for at in range(change.end, high):
-        once, number = known[at - change.further], first_steps[at - low]
-        if once.sound and once.before is not None:
-            states[number] = once.before
-            joined_at.setdefault(number, at)
-    before = known[low].before if low else None
-    state = flow.begin(library[0], start) if before is None else before
-    resolution = resolve_part(statements, library, source, (start, state), keys, states)
-    return resolution, high if resolution.joins is None else joined_at[resolution.joins]
-
-
-def _typed(piece: Piece, start: int) -> tuple[typed.Statement, ...]:
-    return moved(piece.statements, by(start - piece.origin))
-
-
-def _replay(
-    change: Change, part: tuple[int, int], known: Sequence[Played], resolution: Resolution, source: Source, start: str
-) -> Replay:
-    low, high = part
-    fresh = played_of(change.pieces[low:high], change.starts[low : high + 1], resolution, source)
-    played = [*known[:low], *fresh, *known[high - change.further :]]
-    around = [one for piece in fresh for one in piece.statements]
-    states, since = dict(resolution.states), change.starts[low]
-    before = next((at for at in reversed(range(low)) if played[at].statements), None)
-    if before is not None and isinstance(written := played[before].statements[-1], resolved.Command):
-        statement = _now(written, before, change, played)
-        states[statement.span] = played[before].states[written.span]
-        around.insert(0, statement)
-        since = statement.span.start
-    within = tuple(around)
-    behind = next((at for at in range(high, len(played)) if played[at].statements), None)
-    if behind is not None and isinstance(following := played[behind].statements[0], resolved.Command):
-        around.append(_now(following, behind, change, played))
-    whole = replace(resolution, plan=replace(resolution.plan, statements=within), states=states)
-    beside = replace(whole, plan=replace(whole.plan, statements=tuple(around)))
-    return Replay(played, low, high, resolution.diagnostics, whole, beside, since)
-
-
-def _now(command: resolved.Command, at: int, change: Change, played: Sequence[Played]) -> resolved.Command:
-    """Return a command of a piece with its places in the text as it is now."""
-    return moved(command, by(change.starts[at] - played[at].origin))
+    return next(at for at in range(before - 1, -1, -1) if key in keys[at])
