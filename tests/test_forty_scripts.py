@@ -20,7 +20,7 @@ import pytest
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import dijkstra
 
-from mlmg_lang.execution import executed
+from mlmg_lang.execution import drawing, executed
 from mlmg_lang.front_end import Analysis, analyse
 from mlmg_lang.perform import perform
 from mlmg_lang.planning.resolved import Command, Cycles, End, Layer, Once, Seconds, Wait
@@ -296,7 +296,7 @@ def told_of(script: Script, library: Library) -> dict[int, list[str]]:
     assert codes == (script.header("diagnostics") or ""), analysis.diagnostics
     plan, seed = analysis.resolved, int(script.header("seed") or 0)
     report = perform(plan, library, seed).report
-    steps = list(executed(plan, seed))
+    steps = list(executed(plan, drawing(seed)))
     teller = Teller(library, report, {library.root.name: plan.start})
     told: dict[int, list[str]] = {}
     for at, step in enumerate(steps, start=1):

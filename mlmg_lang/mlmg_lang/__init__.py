@@ -58,7 +58,7 @@ def play(plan: ResolvedPlan, library: Library, seed: int = 0, feet: bool = True)
 
     Raises
     ------
-    mlmg_lang.perform.ScriptError
+    mlmg_lang.staging.ScriptError
         If the library does not allow it.
     """
     from mlmg_lang.perform import perform

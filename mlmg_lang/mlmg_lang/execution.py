@@ -12,15 +12,15 @@ from mlmg_lang.planning.resolved import Branch, Choose, Command, End, Repeat, Re
 Step: TypeAlias = Command | Wait | End
 
 
-def executed(plan: ResolvedPlan, seed: int) -> Iterator[Step]:
-    """Yield what is executed, in order; the same plan and seed always give the same.
-
-    Parameters
-    ----------
-    seed : of the stream of random numbers of which each `choose` takes one whenever it is executed.
-    """
+def drawing(seed: int) -> Random:
+    """Return the stream of random numbers of which each `choose` takes one whenever it is executed."""
     # Of a number, `Random` takes no notice of the sign.
-    yield from _body(plan.statements, Random(seed if seed >= 0 else str(seed)))
+    return Random(seed if seed >= 0 else str(seed))
+
+
+def executed(plan: ResolvedPlan, draws: Random) -> Iterator[Step]:
+    """Yield what is executed, in order; the same plan and draws always give the same."""
+    yield from _body(plan.statements, draws)
 
 
 def _body(statements: Iterable[Statement], draws: Random) -> Iterator[Step]:

@@ -11,10 +11,11 @@ from math import inf
 
 from mlmg_lang.explaining.happened import executions_of, played_of
 from mlmg_lang.explaining.travel import MotionTravel
-from mlmg_lang.perform import ScriptError, rehearse
+from mlmg_lang.perform import rehearse
 from mlmg_lang.planning.ahead import Ahead, plan_ahead
 from mlmg_lang.planning.names import Names
 from mlmg_lang.planning.resolved import ResolvedPlan
+from mlmg_lang.staging import ScriptError
 from mlmg_runtime.library import Library
 
 

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mlmg_lang.execution import executed
+from mlmg_lang.execution import drawing, executed
 from mlmg_lang.planning.resolved import Branch, Choose, End, Repeat, ResolvedPlan, Seconds, Statement, Wait
 from mlmg_lang.source import Source, Span
 
@@ -36,7 +36,7 @@ def choose(*bodies: Sequence[Statement], weights: Sequence[int] = ()) -> Choose:
 def words(*statements: Statement, seed: int = 0) -> str:
     """Return the words of what is executed, one after the other."""
     plan = ResolvedPlan(Source(""), "Idle_01", statements)
-    return "".join(step.graph for step in executed(plan, seed) if isinstance(step, End))
+    return "".join(step.graph for step in executed(plan, drawing(seed)) if isinstance(step, End))
 
 
 def drawn(*weights: int, seed: int = 0, times: int = 1_000) -> str:
@@ -51,7 +51,7 @@ def drawn(*weights: int, seed: int = 0, times: int = 1_000) -> str:
 def test_statements_are_executed_in_the_order_of_the_text() -> None:
     wait = Wait(Seconds(1.0), NOWHERE)
     plan = ResolvedPlan(Source(""), "Idle_01", (say("a"), wait, say("b")))
-    assert list(executed(plan, 0)) == [say("a"), wait, say("b")]
+    assert list(executed(plan, drawing(0))) == [say("a"), wait, say("b")]
 
 
 @pytest.mark.parametrize(
@@ -76,7 +76,7 @@ def test_loops_and_choices_are_executed_as_they_are_nested(statements: list[Stat
 
 def test_a_script_is_executed_step_by_step_and_not_ahead() -> None:
     plan = ResolvedPlan(Source(""), "Idle_01", (repeat(10**9, repeat(10**9, say("a"))),))
-    assert list(islice(executed(plan, 0), 3)) == [say("a")] * 3
+    assert list(islice(executed(plan, drawing(0)), 3)) == [say("a")] * 3
 
 
 # --- what is drawn ---

@@ -13,7 +13,7 @@ import pytest
 from mlmg_lang.definitions.expand import MAX_NODES
 from mlmg_lang.definitions.gather import MAX_FILES
 from mlmg_lang.diagnostics import CODES, Diagnostic, Severity
-from mlmg_lang.execution import executed
+from mlmg_lang.execution import drawing, executed
 from mlmg_lang.front_end import Analysis, analyse
 from mlmg_lang.parsing.layout import MAX_DEPTH
 from mlmg_lang.parsing.parse import MAX_MISTAKES, MAX_STATEMENT
@@ -151,7 +151,7 @@ def test_what_plays_lasts_as_long_as_the_page_says(example: Example, demo_librar
     plan = analyse(Source(example.text), demo_library, files=example).resolved
     assert plan is not None
     report = perform(plan, demo_library).report
-    commands = [step for step in executed(plan, 0) if isinstance(step, Command)]
+    commands = [step for step in executed(plan, drawing(0)) if isinstance(step, Command)]
     for command, entry in zip(commands, report["commands"], strict=True):
         length = demo_library.n_frames(entry["motions"][command.layers[0].graph])
         match command.duration:

@@ -14,10 +14,11 @@ from mlmg_lang import looking_ahead
 from mlmg_lang.explaining.explain import explanation_from_analysis
 from mlmg_lang.front_end import analyse
 from mlmg_lang.looking_ahead import look_ahead
-from mlmg_lang.perform import ScriptError, rehearse
+from mlmg_lang.perform import rehearse
 from mlmg_lang.planning.ahead import Ahead
 from mlmg_lang.planning.resolved import ResolvedPlan
 from mlmg_lang.source import Source
+from mlmg_lang.staging import ScriptError
 from mlmg_runtime.library import Library
 from mlmg_runtime.playing.timeline import Blend
 

@@ -8,7 +8,8 @@ from typing import Any
 import pytest
 
 import mlmg_lang
-from mlmg_lang.perform import Executed, perform, rehearse
+from mlmg_lang.perform import perform, rehearse
+from mlmg_lang.staging import Executed
 from mlmg_runtime.library import Library
 
 ENDS = ("from", "to")

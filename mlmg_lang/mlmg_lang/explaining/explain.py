@@ -17,6 +17,7 @@ from mlmg_lang.parsing import syntax
 from mlmg_lang.perform import rehearse
 from mlmg_lang.planning import flow, resolved, typed
 from mlmg_lang.planning.ahead import Ahead
+from mlmg_lang.planning.course import World
 from mlmg_lang.planning.estimate import NO_TIME, Estimate
 from mlmg_lang.planning.forecast import Forecast, Outcome, Passage, chances_of, forecast
 from mlmg_lang.planning.move import move
@@ -37,6 +38,7 @@ def explanation_from_analysis(
     start: str | None = None,
     ahead: Ahead | None = None,
     seed: int | None = None,
+    now: World | None = None,
 ) -> told.Explanation:
     """Return what a script without mistakes will do on the library that it was analysed against, and why.
 
@@ -45,22 +47,23 @@ def explanation_from_analysis(
     start : as it was given to the analysis.
     ahead : what looking ahead over the whole script has made of the plan, if that is what is played.
     seed : to play the script with, so that the explanation tells what happened; None: it is not played.
+    now : what is playing already, if the text goes on with that.
 
     Raises
     ------
     ValueError
         If the script has errors, so that it has no plan.
-    mlmg_lang.perform.ScriptError
+    mlmg_lang.staging.ScriptError
         If it is to be played, and the library does not allow that.
     """
     if analysis.plan is None or analysis.resolved is None:
         raise ValueError(f"{analysis.source.name} has errors, so there is no plan to explain")
     names, travel = Names(library), MotionTravel(library)
-    resolution = resolve(analysis.plan, names, library, analysis.source, start)
+    resolution = resolve(analysis.plan, names, library, analysis.source, start, analysis.question.state)
     plan, gain = resolution.plan, None
     if ahead is not None:
         plan, gain = ahead.plan, _gain(ahead, resolution.plan, (names, library, travel), seed)
-    expected = forecast(plan, names, travel)
+    expected = forecast(plan, names, travel, now)
     played, executions = (None, {}) if seed is None else _play(plan, library, seed)
     explainer = _Explainer(analysis, (names, library, travel), resolution, expected, executions)
     return told.Explanation(

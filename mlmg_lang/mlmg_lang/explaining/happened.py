@@ -4,13 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 from mlmg_lang.explaining.explanation import Event, Execution, Played, Taken
-from mlmg_lang.perform import Executed, Rehearsal
 from mlmg_lang.planning.resolved import Command, End, Once
 from mlmg_lang.source import Span
+from mlmg_lang.staging import Executed
 from mlmg_runtime.library import Library
 from mlmg_runtime.playing.timeline import Blend, Segment
+
+if TYPE_CHECKING:
+    from mlmg_lang.perform import Rehearsal
 
 
 def executions_of(rehearsal: Rehearsal, library: Library, start: str) -> Mapping[Span, tuple[Execution, ...]]:
@@ -20,7 +24,7 @@ def executions_of(rehearsal: Rehearsal, library: Library, start: str) -> Mapping
     ----------
     start : the motion that the character started in.
     """
-    teller = _Teller(library, rehearsal.timeline.tracks, {library.root.name: start})
+    teller = Teller(library, rehearsal.timeline.tracks, {library.root.name: start})
     found: dict[Span, list[Execution]] = {}
     for step in rehearsal.steps:
         found.setdefault(step.statement.span, []).append(teller.execution(step))
@@ -36,7 +40,7 @@ def played_of(rehearsal: Rehearsal, executions: Mapping[Span, tuple[Execution, .
 
 
 @dataclass(slots=True)
-class _Teller:
+class Teller:
     """Goes through what was executed; `homes` are the motions that graphs were last led to, while they run."""
 
     library: Library

@@ -19,7 +19,12 @@ def plan_to_json(explanation: Explanation) -> str:
     """Return an explanation as JSON text; equal explanations give equal text."""
     import json
 
-    return json.dumps({"version": VERSION, **_plain(explanation)}, ensure_ascii=False, indent=1) + "\n"
+    return json.dumps(plan_data(explanation), ensure_ascii=False, indent=1) + "\n"
+
+
+def plan_data(explanation: Explanation) -> dict[str, Any]:
+    """Return an explanation as what JSON is made of."""
+    return {"version": VERSION, **_plain(explanation)}
 
 
 def plan_from_json(text: str) -> Explanation:

@@ -55,10 +55,18 @@ def render_text(explanation: Explanation, width: int = WIDTH, colour: bool = Fal
     ----------
     width : in columns of a terminal.
     """
-    paint = Painter(colour)
-    blocks = [tree_lines(_summary(explanation), width, paint)]
-    blocks += [tree_lines(_statement(one), width, paint) for one in explanation.statements]
-    return "\n".join("".join(f"{line}\n" for line in block) for block in blocks)
+    summary = tree_lines(_summary(explanation), width, Painter(colour))
+    return "\n".join(("".join(f"{line}\n" for line in summary), *_statements(explanation, width, colour)))
+
+
+def render_statements(explanation: Explanation, width: int = WIDTH, colour: bool = False) -> str:
+    """Return the trees of the statements alone."""
+    return "\n".join(_statements(explanation, width, colour))
+
+
+def _statements(explanation: Explanation, width: int, colour: bool) -> Iterator[str]:
+    for one in explanation.statements:
+        yield "".join(f"{line}\n" for line in tree_lines(_statement(one), width, Painter(colour)))
 
 
 # --- the whole ---

@@ -193,6 +193,8 @@ class MotionTravel:
         home = own.index[playing.motion]
         exits = own.first_exit[home]
         match playing.moment:
+            case Moment.AT:
+                return places_of([(1.0, [(Position(home, playing.frame), 0)])])
             case Moment.FIRST:
                 frame = 0
             case Moment.PASSED:

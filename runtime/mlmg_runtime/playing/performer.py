@@ -6,6 +6,7 @@ The performer decides; it works on frame numbers alone and makes a timeline. Syn
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
+from copy import copy
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -145,6 +146,17 @@ class Performer:
         """Return the motion that drives `graph` now: its own if it runs, else that of the graph above."""
         track = self._driver(graph)
         return track.graph.motions[track.home]
+
+    def whereabouts(self) -> dict[str, tuple[str, int]]:
+        """Return, by graph that runs, the motion and frame that it shows next; in a blend, where that leads."""
+        return {name: _shown(track, self.now) for name, track in self._running.items()}
+
+    def copy(self) -> Performer:
+        """Return the same character where it is now, to go on by itself."""
+        other = copy(self)
+        other._running = {graph: copy(track) for graph, track in self._running.items()}
+        other._ended = dict(self._ended)
+        return other
 
     def runs(self, graph: str) -> bool:
         """Return whether `graph` plays a motion of its own."""
@@ -434,3 +446,17 @@ def _cut(segment: Segment, end: int) -> Segment:
     if isinstance(segment, Clip) and segment.end > end:
         return replace(segment, end=end, n_source=end - segment.begin)
     return segment
+
+
+def _shown(track: _Track, now: int) -> tuple[str, int]:
+    """Return the motion and frame that a track shows at an output frame."""
+    position = track.position
+    for segment in reversed(track.segments):
+        if segment.begin <= now < segment.end:
+            if isinstance(segment, Clip):
+                further = round((now - segment.begin) * segment.speed)
+                position = Position(segment.first.motion, segment.first.frame + further)
+            elif segment.after is not None:
+                position = segment.after
+            break
+    return track.graph.motions[position.motion], position.frame
