@@ -19,6 +19,7 @@ from mlmg_lang.source import Source, Span
 
 if TYPE_CHECKING:
     from mlmg_lang.planning import resolved
+    from mlmg_lang.planning.flow import State
     from mlmg_lang.planning.names import Names
     from mlmg_lang.planning.resolve import Resolution
     from mlmg_lang.planning.resolve_again import Played
@@ -37,12 +38,20 @@ _UNKNOWN: Final = frozenset({"MS021", "MS025", "MS026", "MS027", "MS028"})
 
 @dataclass(frozen=True, slots=True)
 class Question:
-    """What a script is analysed against; without a library there are no names."""
+    """What a text is analysed against; without a library there are no names.
+
+    Attributes
+    ----------
+    start : the motion of the root graph to start in; without it, the script or the library says which.
+    files : where the files are found that the text uses.
+    state : what is playing already; None if the text is what the character starts with.
+    """
 
     catalog: Catalog | None
     names: Names | None
     start: str | None
     files: Files
+    state: State | None = None
 
 
 @dataclass(frozen=True)

@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 _MAX_FOUND = 200
 """With so many diagnostics of texts and names, stages may have given up, which depends on the whole script."""
 
-__all__ = ["Analysis", "analyse", "analyse_again"]
+__all__ = ["Analysis", "Question", "analyse", "analyse_again", "analyse_for"]
 
 
 def analyse(
@@ -45,7 +45,8 @@ def analyse(
     start : the motion of the root graph to start in; without it, the script or the library says which.
     files : where the files are found that the script uses; without it, none is.
     """
-    return _analysed(source, Question(catalog, None if catalog is None else _names(catalog), start, files or NoFiles()))
+    names = None if catalog is None else _names(catalog)
+    return analyse_for(source, Question(catalog, names, start, files or NoFiles()))
 
 
 def analyse_again(previous: Analysis, source: Source) -> Analysis:
@@ -54,13 +55,19 @@ def analyse_again(previous: Analysis, source: Source) -> Analysis:
     What lines say that have not changed is kept, and so are the files that are used; those are read again where the
     edit is in what uses them.
     """
-    return _edited(previous, source) or _analysed(source, previous.question)
+    return _edited(previous, source) or analyse_for(source, previous.question)
 
 
 # --- all afresh ---
 
 
-def _analysed(source: Source, question: Question) -> Analysis:
+def analyse_for(source: Source, question: Question) -> Analysis:
+    """Return what `analyse` does, where a text may also go on with what is playing.
+
+    Parameters
+    ----------
+    source : with the files, if there are any, whose definitions the text can use without saying so.
+    """
     tokens = tokenize(source)
     parsed = parse(source, tokens)
     gathered = gather(source, parsed.script, question.files)
@@ -84,7 +91,7 @@ def _resolved(names: Names, catalog: Catalog, question: Question, found: Found, 
     from mlmg_lang.planning.resolve import resolve
     from mlmg_lang.planning.unusual import unusual
 
-    resolution = resolve(made.plan, names, catalog, made.source, question.start)
+    resolution = resolve(made.plan, names, catalog, made.source, question.start, question.state)
     hints = (*left_at_once(resolution, names), *unusual(resolution, names, catalog))
     made = replace(made, resolution=resolution, start=resolution.plan.start)
     return _told(question, replace(found, played=resolution.diagnostics, hints=hints), made)

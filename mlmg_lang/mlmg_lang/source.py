@@ -50,6 +50,11 @@ class Source:
             base += len(file.text) + 1
         raise ValueError(f"offset {offset} is in none of the files, which end at {self.end}")
 
+    def base(self, file: Source) -> int:
+        """Return the offset of the beginning of one of the files that are used."""
+        before = (len(other.text) + 1 for other in (self, *self.used[: self.used.index(file)]))
+        return sum(before)
+
     def position(self, offset: int) -> tuple[int, int]:
         """Return line and column of an offset in its file, both from 1, in code points."""
         if offset > len(self.text):

@@ -68,12 +68,14 @@ class Used:
     ----------
     source : the script, with these files.
     complete : False if one could not be used.
+    earlier : the files that came with the source: their definitions stand before its own.
     """
 
     source: Source
     scripts: tuple[syntax.Script, ...]
     complete: bool
     diagnostics: tuple[Diagnostic, ...]
+    earlier: tuple[syntax.Script, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -91,17 +93,24 @@ class Gathered:
 
 
 def gather(source: Source, script: syntax.Script, files: Files) -> Gathered:
-    """Return the definitions that a script can use. Whatever it says, this does not fail."""
+    """Return the definitions that a script can use. Whatever it says, this does not fail.
+
+    Parameters
+    ----------
+    source : with files, if there are any, whose definitions can be used without saying so.
+    """
     opener = _Opener(source, files)
+    opener.use_given()
+    n_earlier = len(opener.scripts)
     opener.use(script, source.name, ())
-    used = Used(opener.source, tuple(opener.scripts), opener.complete, tuple(opener.diagnostics))
-    return gather_with(script, used)
+    earlier, scripts = tuple(opener.scripts[:n_earlier]), tuple(opener.scripts[n_earlier:])
+    return gather_with(script, Used(opener.source, scripts, opener.complete, tuple(opener.diagnostics), earlier))
 
 
 def gather_with(script: syntax.Script, used: Used) -> Gathered:
     """Return the definitions of a script that uses these files."""
     lets: dict[str, syntax.Let] = {}
-    twice = [one for part in (script, *used.scripts) for one in _defined(part, lets)]
+    twice = [one for part in (*used.earlier, script, *used.scripts) for one in _defined(part, lets)]
     found, wrong = signatures(lets)
     return Gathered(Definitions(lets, found, used.complete), used, (*used.diagnostics, *twice, *wrong))
 
@@ -127,6 +136,14 @@ class _Opener:
     complete: bool = True
     scripts: list[syntax.Script] = field(default_factory=list)
     diagnostics: list[Diagnostic] = field(default_factory=list)
+
+    def use_given(self) -> None:
+        """Take the files that came with the source, and open those that they use."""
+        for file in self.source.used:
+            base = self.source.base(file)
+            script = parse(self.source, tokenize(self.source, base), base).script
+            self.scripts.append(script)
+            self.use(script, file.name, ())
 
     def use(self, script: syntax.Script, name: str, users: Sequence[str]) -> None:
         """Open the files that a file uses, and those that they use."""

@@ -57,6 +57,7 @@ class Moment(StrEnum):
     BEGUN = "where it begins"
     ARRIVED = "where one arrives from another"
     PASSED = "at its last exit"
+    AT = "at a frame that is known"
 
 
 @dataclass(frozen=True, slots=True, order=True)
@@ -67,12 +68,14 @@ class Playing:
     ----------
     moment : when that was known. source : if it had arrived then, the motion that it came from.
     held_s : seconds since, in which it has stayed in the motion; infinite, if it may be any number.
+    frame : the one that is known, if one is.
     """
 
     motion: str
     moment: Moment = Moment.BEGUN
     source: str = ""
     held_s: float = inf
+    frame: int = 0
 
     def held(self, time: Estimate) -> Playing:
         """Return what is known after some time; where that is not sure, it may be any."""

@@ -91,10 +91,15 @@ class Forecast:
     whole: Passage
 
 
-def forecast(plan: ResolvedPlan, names: Names, travel: Travel) -> Forecast:
-    """Return how a plan will probably go on the library that it was resolved against."""
+def forecast(plan: ResolvedPlan, names: Names, travel: Travel, now: World | None = None) -> Forecast:
+    """Return how a plan will probably go on the library that it was resolved against.
+
+    Parameters
+    ----------
+    now : what is playing before it; without it, the plan's start.
+    """
     follower = _Follower(names, travel)
-    begin: Outlook = {at_start(plan, names): 1.0}
+    begin: Outlook = {now or at_start(plan, names): 1.0}
     whole = follower.body(plan.statements, begin, is_last=True)
     if _loops(plan.statements):
         for _ in range(_N_PASSES - 1):

@@ -52,6 +52,8 @@ class _Graph:
 
     motions: tuple[str, ...]
     motion_set: frozenset[str]
+    entries: tuple[Entry, ...]
+    spellings: tuple[str, ...]
     exact: Mapping[str, Entry]
     inexact: Mapping[str, tuple[Entry, ...]]
 
@@ -146,10 +148,13 @@ class Names:
             if match is not None:
                 yield from (entry.name for entry in (match.entry, *match.others))
 
+    def entries(self, graph: str) -> tuple[Entry, ...]:
+        """Return what the tags on a graph stand for, then its motions."""
+        return self._names[graph].entries
+
     def spellings_on(self, graph: str) -> tuple[str, ...]:
         """Return the tags on a graph, then its motions."""
-        entries = self._names[graph].exact.values()
-        return tuple(entry.name for entry in sorted(entries, key=lambda entry: entry.kind is Kind.MOTION))
+        return self._names[graph].spellings
 
     def tags(self, graphs: Iterable[str]) -> tuple[str, ...]:
         """Return every tag on some graphs, once."""
@@ -174,4 +179,6 @@ def _index(catalog: Catalog, graph: str) -> _Graph:
         key = folded(entry.name)
         inexact[key] = (*inexact.get(key, ()), entry)
     exact = {normal(entry.name): entry for entry in reversed(entries)}
-    return _Graph(motions, frozenset(motions), dict(reversed(exact.items())), inexact)
+    exact = dict(reversed(exact.items()))
+    listed = tuple(sorted(exact.values(), key=lambda entry: entry.kind is Kind.MOTION))
+    return _Graph(motions, frozenset(motions), listed, tuple(entry.name for entry in listed), exact, inexact)

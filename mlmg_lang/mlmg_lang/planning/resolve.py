@@ -81,18 +81,25 @@ class Resolution:
 
 
 def resolve(
-    plan: typed.TypedPlan, names: Names, catalog: Catalog, source: Source, start: str | None = None
+    plan: typed.TypedPlan,
+    names: Names,
+    catalog: Catalog,
+    source: Source,
+    start: str | None = None,
+    state: flow.State | None = None,
 ) -> Resolution:
     """Return what a script plays; statements that cannot be played are reported and left out.
 
     Parameters
     ----------
     start : the motion of the root graph to start in; without it, the script or the library says which.
+    state : what is playing already; None if nothing is.
     """
     motion, wrong = start_of(plan.statements, names, catalog, start)
     n_steps = len(steps := chart(plan.statements))
     keys = range(GAP, (n_steps + 1) * GAP, GAP)
-    resolver = _Resolver(names, catalog, steps, source, motion, flow.begin(names, motion), keys)
+    resolver = _Resolver(names, catalog, steps, source, motion, state or flow.begin(names, motion), keys)
+    resolver.has_begun = state is not None
     resolver.run()
     return _resolution(plan.statements, resolver, wrong)
 
@@ -199,6 +206,8 @@ class _Resolver:
     ways : by step, how many of the ways to understand it have failed.
     first_stop : by step, why the first of them has.
 
+    has_begun : whether something has been played before the first step.
+
     For `keys`, `known`, `reached`, `sound` and `joins` see `resolve_part` and `Resolution`.
     """
 
@@ -221,6 +230,7 @@ class _Resolver:
     reached: list[flow.State] = field(default_factory=list)
     sound: list[int] = field(default_factory=list)
     joins: int | None = None
+    has_begun: bool = False
 
     def run(self) -> None:
         self.entered = [None] * len(self.steps)
@@ -411,7 +421,8 @@ class _Resolver:
         if stopped.setter is not None:
             yield Note(f"this is what `{stopped.above}` plays then", self._span(self._number(stopped.setter)))
         elif not stopped.within:
-            yield Note(f"the character starts in `{self.start}`")
+            playing = " or ".join(f"`{motion}`" for motion in stopped.motions)
+            yield Note(f"it plays {playing} now" if self.has_begun else f"the character starts in `{self.start}`")
 
     def _span(self, number: int) -> Span:
         statement = self.steps[number].statement
