@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from functools import cache
 from pkgutil import get_data
 from typing import TYPE_CHECKING, Any
 
@@ -57,6 +58,7 @@ def scan(language: Lark, text: str) -> Iterator[Token]:
     return language.lex(text, dont_ignore=True)
 
 
+@cache
 def reserved_words(language: Lark) -> dict[str, str]:
     """Return the words that cannot be names, each with the terminal that it is."""
     terminals = ((terminal.pattern.value, terminal.name) for terminal in language.terminals)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import unicodedata
 from collections.abc import Iterable, Sequence
+from functools import lru_cache
 
 
 def normal(name: str) -> str:
@@ -11,8 +12,12 @@ def normal(name: str) -> str:
     return unicodedata.normalize("NFC", name)
 
 
+@lru_cache(maxsize=1 << 16)
 def folded(name: str) -> str:
-    """Return a name without what an inexact spelling may differ in: case, `_` and `-`."""
+    """Return a name without what an inexact spelling may differ in: case, `_` and `-`.
+
+    It is kept, as one unknown name after the other is compared with all names of a library while somebody types.
+    """
     plain = unicodedata.normalize("NFC", normal(name).casefold())
     return plain.replace("_", "").replace("-", "") or plain
 
@@ -21,14 +26,12 @@ def nearest(name: str, known: Iterable[str], limit: int = 3) -> tuple[str, ...]:
     """Return the known names that look most like `name`, the most like first; none if none looks like it."""
     from rapidfuzz import fuzz, process
 
-    wanted = _seen(name)
-    found = process.extract(
-        wanted, list(dict.fromkeys(known)), scorer=fuzz.ratio, processor=_seen, limit=limit, score_cutoff=65
-    )
-    by_letters = [choice for choice, _, _ in found]
-    return tuple(by_letters) or _same_letters(wanted, known, limit)
+    wanted, choices = _seen(name), list(dict.fromkeys(known))
+    found = process.extract(wanted, list(map(_seen, choices)), scorer=fuzz.ratio, limit=limit, score_cutoff=65)
+    return tuple(choices[at] for _, _, at in found) or _same_letters(wanted, choices, limit)
 
 
+@lru_cache(maxsize=1 << 16)
 def _seen(name: str) -> str:
     """Return a name as it looks: without what is ignored in names, and wide letters like others."""
     return folded(unicodedata.normalize("NFKC", name))
@@ -36,8 +39,8 @@ def _seen(name: str) -> str:
 
 def _same_letters(wanted: str, known: Iterable[str], limit: int) -> tuple[str, ...]:
     """Return the names of the very letters of `wanted`, for short words with two of them swapped."""
-    letters = sorted(wanted)
-    return tuple(dict.fromkeys(name for name in known if sorted(folded(name)) == letters))[:limit]
+    letters, n = sorted(wanted), len(wanted)
+    return tuple(name for name in known if len(folded(name)) == n and sorted(folded(name)) == letters)[:limit]
 
 
 def is_slip_of(word: str, meant: str) -> bool:
