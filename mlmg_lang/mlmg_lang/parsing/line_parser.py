@@ -73,6 +73,14 @@ def read(source: Source, tokens: Sequence[Token], in_choose: bool = False) -> Li
     return Stuck(source, tuple(tokens), at, _accepted_before(tokens[:at]), in_choose)
 
 
+def accepted(tokens: Sequence[Token]) -> frozenset[str] | None:
+    """Return the types of token that could follow those of a line that is not finished; None if they do not parse."""
+    try:
+        return _accepted_before(tokens)
+    except lark.UnexpectedToken:
+        return None
+
+
 def _feed(parser: InteractiveParser, tokens: Sequence[Token]) -> int | None:
     """Give tokens to a parser, and the end; return the index of the first that it refuses."""
     fed = 0

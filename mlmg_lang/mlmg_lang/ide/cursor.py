@@ -1,0 +1,109 @@
+"""A text and a place in it -> the statement that is being written there, up to the word under the cursor."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Final
+
+from mlmg_lang.parsing.layout import Block, Line, lay_out
+from mlmg_lang.parsing.tokens import Token
+from mlmg_lang.source import Span
+
+_WORDS: Final = frozenset({"NAME", "UNIT", "STRING", "UNCLOSED"})
+_CLEARS: Final = frozenset({"SEMICOLON", "OPEN", "CLOSE", "BAR"})
+
+
+@dataclass(frozen=True, slots=True)
+class Cursor:
+    """Where a text is being written.
+
+    Attributes
+    ----------
+    word : what stands of a word before the cursor, without quotes; empty between words.
+    span : what takes the place of that word: all of it, also what stands behind the cursor.
+    before : the tokens of the statement before that word.
+    last : those of the statement before this one, if only a line end stands between the two: a line may go on with it.
+    nested : whether the statement stands in braces.
+    """
+
+    word: str
+    span: Span
+    before: tuple[Token, ...]
+    last: tuple[Token, ...]
+    nested: bool
+
+
+def cursor_at(tokens: Sequence[Token], offset: int) -> Cursor | None:
+    """Return what is being written at an offset of a text; None in a comment, or behind a finished quoted name.
+
+    Parameters
+    ----------
+    tokens : all of the text. offset : in code points.
+    """
+    before = [token for token in tokens if token.span.start < offset]
+    under = before[-1] if before and before[-1].span.end >= offset else None
+    if under is not None and under.type == "COMMENT":
+        return None
+    if under is not None and under.type == "STRING" and under.span.end == offset:
+        return None
+    word, span = "", Span(offset, offset)
+    if under is not None and _is_word(under):
+        n_words = 2 if _ends_in_hyphen(before) else 1
+        span = Span(before[-n_words].span.start, under.span.end)
+        word = "".join(token.text for token in before[-n_words:])[: offset - span.start].lstrip('"')
+        before = before[:-n_words]
+    line, last, nested = _statement(before, offset)
+    return Cursor(word, span, line, last, nested)
+
+
+def is_open(tokens: Sequence[Token]) -> bool:
+    """Return whether a text ends inside braces or parentheses that something may still close."""
+    depth = n_open = 0
+    for token in tokens:
+        if token.type in _CLEARS:
+            n_open = 0
+            depth = max(0, depth + (token.type == "OPEN") - (token.type == "CLOSE"))
+        elif token.type in ("LEFT", "RIGHT"):
+            n_open = max(0, n_open + (1 if token.type == "LEFT" else -1))
+    return depth > 0 or n_open > 0
+
+
+def _is_word(token: Token) -> bool:
+    return token.type in _WORDS or token.text.isalpha() or token.text == "-"
+
+
+def _ends_in_hyphen(tokens: Sequence[Token]) -> bool:
+    """Return whether a hyphen that nothing follows yet stands right behind a name."""
+    if len(tokens) < 2 or tokens[-1].text != "-":
+        return False
+    return tokens[-2].type == "NAME" and tokens[-2].span.end == tokens[-1].span.start
+
+
+def _statement(before: Sequence[Token], offset: int) -> tuple[tuple[Token, ...], tuple[Token, ...], bool]:
+    """Return the tokens of the statement that a word at an offset belongs to, and those of the one before it."""
+    here = Token("NAME", "", Span(offset, offset))
+    closing = [Token("RIGHT", ")", Span(offset, offset))] * _n_open(before)
+    items, nested = lay_out([*before, here, *closing]).items, False
+    while items and isinstance(items[-1], Block):
+        items, nested = items[-1].branches[-1], True
+    lines = [item.tokens if isinstance(item, Line) else () for item in items]
+    if not lines or here not in lines[-1]:
+        return (), (), nested
+    line = lines[-1][: lines[-1].index(here)]
+    joined = not line and len(lines) > 1 and _last_solid(before) not in ("SEMICOLON", "CLOSE")
+    return line, lines[-2] if joined else (), nested
+
+
+def _n_open(tokens: Sequence[Token]) -> int:
+    n_open = 0
+    for token in tokens:
+        if token.type in _CLEARS:
+            n_open = 0
+        elif token.type in ("LEFT", "RIGHT"):
+            n_open = max(0, n_open + (1 if token.type == "LEFT" else -1))
+    return n_open
+
+
+def _last_solid(tokens: Sequence[Token]) -> str:
+    return next((token.type for token in reversed(tokens) if token.type not in ("NEWLINE", "COMMENT")), "")

@@ -1,0 +1,154 @@
+"""What is offered at a cursor is what is valid there, the best first."""
+
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+
+from mlmg_lang.catalog import Catalog
+from mlmg_lang.front_end import analyse
+from mlmg_lang.ide.completion import Completion, What
+from mlmg_lang.source import Source
+
+Texts = Callable[..., list[str]]
+Offers = Callable[..., list[Completion]]
+UPPER = ["IDLE", "Idle_01", "SWING_HAND", "Walk_01", "Walk_02", "WAVE_HAND", "Walk_03", "Music", "Music_01"]
+UPPER += ["TALK", "Talk_01", "Talk_02"]
+
+
+def test_a_command_may_begin_with_what_the_whole_body_does_then_with_parts_then_with_words(offers: Offers) -> None:
+    found = offers("¦")
+    kinds = list(dict.fromkeys((one.what, one.graph) for one in found))
+    assert kinds[:2] == [(What.TAG, "Full-Body"), (What.MOTION, "Full-Body")]
+    assert (What.GRAPH, None) in kinds
+    assert kinds[-1] == (What.WORD, None)
+    assert [one.text for one in found if one.graph == "Upper-Body"] == ["SWING_HAND"]
+
+
+def test_after_a_graph_come_only_its_tags_and_motions(texts: Texts) -> None:
+    assert texts("WALK with Upper-Body ¦") == UPPER
+    assert texts("Upper-Body ¦") == UPPER
+    assert texts("Upper-Body (TALK and ¦") == [*UPPER, "not"]
+    assert texts("Upper-Body (not ¦") == [*UPPER, "not"]
+
+
+def test_after_with_come_only_graphs_below_that_rule_1_allows(texts: Texts, left_hand: Catalog) -> None:
+    assert "Upper-Body" in texts("WALK with ¦")
+    assert "Full-Body" not in texts("WALK with ¦")
+    assert texts("Idle_02 with ¦") == ["not"]
+    assert texts("WALK with Upper-Body TALK with ¦") == ["not"]
+    below = texts("WALK with Upper-Body TALK with ¦", left_hand)
+    assert "Left-Hand" in below
+    assert "Upper-Body" not in below
+
+
+def test_with_is_offered_only_where_it_leaves_a_graph(texts: Texts, left_hand: Catalog) -> None:
+    assert texts("WALK ¦") == ["with", "for", "once", "and", "or"]
+    assert texts("Idle_02 ¦") == ["for", "once", "and", "or"]
+    assert texts("WALK with Upper-Body TALK ¦") == ["for", "once", "and", "or"]
+    assert texts("WALK with Upper-Body TALK ¦", left_hand)[0] == "with"
+
+
+def test_sub_is_the_part_below(texts: Texts) -> None:
+    assert "Sub" in texts("WALK with ¦")
+    assert texts("WALK with Sub ¦") == UPPER
+
+
+def test_a_part_that_rule_1_forbids_now_is_not_offered(texts: Texts) -> None:
+    assert "SWING_HAND" not in texts("¦", playing="Idle_02")
+    assert "Upper-Body" not in texts("¦", playing="Idle_02")
+
+
+def test_units_come_after_a_number(texts: Texts) -> None:
+    for text in ("WALK for 10 ¦", "WALK for 10¦", "WALK for 1.5 s¦", "wait 3 ¦"):
+        assert texts(text) == ["sec", "ms", "min", "frames", "cycles"]
+
+
+def test_after_a_whole_statement_nothing_is_offered(texts: Texts) -> None:
+    assert texts("WALK for 10 sec ¦") == []
+    assert texts("WALK once ¦") == []
+
+
+def test_nothing_is_offered_where_a_new_name_is_made_or_in_a_comment(texts: Texts) -> None:
+    assert texts("let ¦") == []
+    assert texts("let G(x, ¦") == []
+    assert texts("WALK # ¦") == []
+    assert texts("end ¦") == []
+
+
+def test_definitions_and_parameters_are_offered(texts: Texts) -> None:
+    assert "GREET" in texts("¦", defined="let GREET(x) = x with Upper-Body TALK")
+    found = texts("let G(who, t = 2 sec) = ¦")
+    assert {"who", "t", "WALK"} <= set(found)
+    assert set(texts("let G(who, t = 2 sec) = WALK for ¦")) == {"who", "t"}
+
+
+def test_below_a_parameter_all_parts_are_offered(texts: Texts) -> None:
+    assert {"TALK", "Upper-Body"} <= set(texts("let G(x) = x with ¦"))
+
+
+def test_in_braces_there_is_no_let(texts: Texts) -> None:
+    inside = texts("repeat 2 {\n¦")
+    assert {"WALK", "wait", "choose"} <= set(inside)
+    assert not {"let", "use"} & set(inside)
+
+
+def test_a_line_after_a_command_may_go_on_with_it(texts: Texts) -> None:
+    assert {"with", "for", "WALK", "let"} <= set(texts("IDLE\n¦"))
+    assert not {"with", "for"} & set(texts("IDLE;\n¦"))
+
+
+def test_a_statement_with_a_mistake_before_the_cursor_is_offered_nothing(texts: Texts) -> None:
+    assert texts("WALK for for ¦") == []
+
+
+@pytest.mark.parametrize(
+    ("text", "word"),
+    [("WA¦", "WA"), ("WALK with Upper-¦", "Upper-"), ("WALK with Upper-Bo¦", "Upper-Bo"), ('"hand o¦', '"hand o')],
+)
+def test_what_has_been_written_of_a_word_is_replaced(text: str, word: str, reference: Catalog) -> None:
+    from mlmg_lang.ide.cursor import cursor_at
+    from mlmg_lang.parsing.tokenize import tokenize
+
+    before = text.partition("¦")[0]
+    cursor = cursor_at(tokenize(Source(before)), len(before))
+    assert cursor is not None
+    assert before[cursor.span.start : cursor.span.end] == word
+    assert cursor.word == word.strip('"')
+
+
+def test_names_that_need_quotes_are_offered_in_quotes(texts: Texts, catalog: Any) -> None:
+    odd = catalog({"Body": {"hand on hip": (), "with": (), "走路": ()}}, {}, start="走路")
+    assert texts("¦", odd, playing="走路")[:3] == ['"hand on hip"', '"with"', "走路"]
+
+
+def test_what_has_been_used_more_comes_first_among_equals(reference: Catalog) -> None:
+    from mlmg_lang.ide.completion import Offers, Surroundings, complete
+    from mlmg_lang.planning import flow
+    from mlmg_lang.planning.names import Names
+
+    class Alike:
+        def fits(self, graph: str, above: object) -> dict[str, float]:
+            return dict.fromkeys(names.motions(graph), 1.0)
+
+    names = Names(reference)
+    definitions = analyse(Source(""), reference).definitions
+    offers = Offers(names, Alike(), {"TALK": 3, "Walk_02": 1})
+    around = Surroundings(names, definitions, flow.begin(names, "Idle_01"), offers)
+    assert [one.text for one in complete((), 0, around)[1]][:2] == ["TALK", "Walk_02"]
+
+
+def test_whatever_is_offered_for_a_finished_motion_is_understood(texts: Texts, left_hand: Catalog) -> None:
+    for text in (
+        "¦",
+        "WALK with ¦",
+        "WALK with Upper-Body ¦",
+        "Upper-Body ¦",
+        "WALK with Upper-Body TALK with ¦",
+        "IDLE or ¦",
+    ):
+        for one in texts(text, left_hand):
+            whole = text.replace("¦", one)
+            if one not in ("Upper-Body", "Left-Hand", "Sub", "not", "wait", "end", "repeat", "choose", "let", "use"):
+                told = analyse(Source(whole), left_hand, "Walk_01").diagnostics
+                assert not [m.message for m in told if m.severity == "error"], whole

@@ -1,0 +1,33 @@
+"""What has been written of a word finds what has its letters, the likeliest first."""
+
+from mlmg_lang.ide.fuzzy import matching
+
+NAMES = ["Walk_01", "WALK", "Talk_01", "SWING_HAND", "WAVE_HAND", "Upper-Body", "走路"]
+
+
+def test_case_does_not_count_and_what_begins_so_comes_first() -> None:
+    assert matching("wa", NAMES, str)[:3] == ["Walk_01", "WALK", "WAVE_HAND"]
+
+
+def test_a_part_that_begins_so_comes_before_what_holds_it_before_what_has_its_letters() -> None:
+    assert matching("hand", ["Shorthand", "WAVE_HAND", "Hello_and", "HANDS"], str) == [
+        "HANDS",
+        "WAVE_HAND",
+        "Shorthand",
+        "Hello_and",
+    ]
+
+
+def test_letters_may_be_left_out() -> None:
+    assert matching("ubd", NAMES, str) == ["Upper-Body"]
+    assert matching("wh", NAMES, str) == ["SWING_HAND", "WAVE_HAND"]
+
+
+def test_nothing_written_finds_all_and_other_letters_nothing() -> None:
+    assert matching("", NAMES, str) == NAMES
+    assert matching("xyz", NAMES, str) == []
+    assert matching("走", NAMES, str) == ["走路"]
+
+
+def test_signs_are_letters_too() -> None:
+    assert matching(".*", NAMES, str) == []
