@@ -14,8 +14,13 @@ def render_json(checked: Iterable[Checked]) -> str:
     """Return the diagnostics of several scripts as one JSON list, an entry a line."""
     import json
 
-    entries = [json.dumps(_entry(one, source)) for source, diagnostics in checked for one in diagnostics]
+    entries = [json.dumps(entry) for source, diagnostics in checked for entry in entries_of(source, diagnostics)]
     return "[" + ",".join(f"\n {entry}" for entry in entries) + ("\n]\n" if entries else "]\n")
+
+
+def entries_of(source: Source, diagnostics: Iterable[Diagnostic]) -> list[dict[str, Any]]:
+    """Return the entries of the diagnostics of one text."""
+    return [_entry(one, source) for one in diagnostics]
 
 
 def _entry(one: Diagnostic, source: Source) -> dict[str, Any]:
