@@ -26,6 +26,7 @@ SUBCOMMANDS = {
     "fmt": "rewrite scripts in the one canonical form",
     "explain": "tell what a script will do and why, as a tree, JSON or a flowchart",
     "view": "look at a motion: a player in the browser, a picture, a GIF",
+    "repl": "converse with a character: each command is played on and answered at once",
     "completion": "write what completes commands, options and files in a shell",
 }
 

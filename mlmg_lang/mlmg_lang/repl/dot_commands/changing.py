@@ -1,0 +1,103 @@
+"""Commands that change the session: going back and forth, another start, other draws, another library."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from mlmg_lang.rendering import render_full
+from mlmg_lang.repl.desk import Desk
+from mlmg_lang.repl.reply import Refusal, Reply
+from mlmg_lang.repl.telling import telling_of
+from mlmg_lang.script_files import read_script
+from mlmg_lang.session.replaying import Replayed, replay
+from mlmg_runtime.library import Library, open_library
+
+
+def undo(desk: Desk, _argument: str) -> Reply:
+    """Take the last entry back."""
+    turn = desk.session.undo()
+    if turn is None:
+        raise Refusal("there is nothing to take back")
+    return _went(desk, "took back", turn.text)
+
+
+def redo(desk: Desk, _argument: str) -> Reply:
+    """Play again what was taken back last."""
+    turn = desk.session.redo()
+    if turn is None:
+        raise Refusal("there is nothing to play again; an entry after `.undo` drops what was taken back")
+    return _went(desk, "played again", turn.text)
+
+
+def _went(desk: Desk, what: str, text: str) -> Reply:
+    seconds = desk.session.n_seconds
+    told = f"{what}: {' '.join(text.split())}\n  {seconds:.1f} s of motion\n"
+    return Reply(told, {"text": text, "seconds": round(seconds, 3)})
+
+
+def start(desk: Desk, argument: str) -> Reply:
+    """Play all that was entered from another start motion on."""
+    if not argument:
+        raise Refusal("name the motion of the whole body to start in, such as `.start Idle_01`")
+    return _again(desk, argument.strip('"'), desk.session.seed, f"starts in {argument}")
+
+
+def seed(desk: Desk, argument: str) -> Reply:
+    """Play all that was entered with other draws of `choose`."""
+    try:
+        number = int(argument)
+    except ValueError:
+        raise Refusal(f"expected a whole number, as in `.seed 7`, found `{argument}`") from None
+    return _again(desk, desk.session.start, number, f"seed {number}")
+
+
+def _again(desk: Desk, motion: str | None, number: int, what: str) -> Reply:
+    """Replace the session by one that plays the same anew; if that cannot play all of it, keep it as it is."""
+    try:
+        replayed = replay(desk.session, desk.session.library, motion, number)
+    except ValueError as error:
+        raise Refusal(str(error)) from None
+    if replayed.lost:
+        first = replayed.lost[0]
+        raise Refusal(f"`{first.source.text.strip()}` could not be played then; nothing is changed")
+    desk.replace_session(replayed.session)
+    return Reply(f"{what}; {desk.session.n_seconds:.1f} s of motion\n", {"seconds": round(desk.session.n_seconds, 3)})
+
+
+def load(desk: Desk, argument: str) -> Reply:
+    """Play a script on from here, as one entry."""
+    if not argument:
+        raise Refusal("name a script, as in `.load stroll.ms`")
+    source, unreadable = read_script(Path(argument).expanduser())
+    if unreadable:
+        return Reply(render_full(unreadable, source, desk.colour), {"problem": unreadable[0].message}, ok=False)
+    return telling_of(desk).reply(desk.session.enter(source.text))
+
+
+def library(desk: Desk, argument: str) -> Reply:
+    """Read the library again, or another, and play on it what was entered."""
+    path = Path(argument).expanduser() if argument else desk.session.library.path
+    return _moved(desk, open_library(path))
+
+
+def _moved(desk: Desk, other: Library) -> Reply:
+    session = desk.session
+    try:
+        replayed = replay(session, other, session.start, session.seed)
+    except ValueError:
+        replayed = replay(session, other, None, session.seed)
+    desk.replace_session(replayed.session)
+    return _told_of(replayed, other)
+
+
+def _told_of(replayed: Replayed, other: Library) -> Reply:
+    lines = [f"{other.path.name}: {len(other.graphs)} graphs, {len(other.root.motions)} motions of the whole body"]
+    if replayed.session.turns or replayed.lost:
+        lines.append(f"  {replayed.session.n_seconds:.1f} s of motion, played anew")
+    lines += [f"  cannot be played on it: {' '.join(one.source.text.split())}" for one in replayed.lost]
+    data = {
+        "library": str(other.path),
+        "seconds": round(replayed.session.n_seconds, 3),
+        "lost": [one.source.text for one in replayed.lost],
+    }
+    return Reply("".join(f"{line}\n" for line in lines), data)

@@ -1,0 +1,132 @@
+"""Commands that keep what was played: in a file, in the player; and how that is done."""
+
+from __future__ import annotations
+
+import json
+import tempfile
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from mlmg_lang.repl.desk import Desk
+from mlmg_lang.repl.reply import Refusal, Reply
+from mlmg_lang.session.saving import SavedScript, script_from_session
+from mlmg_lang.session.session import Session
+from mlmg_runtime.files import atomic_output
+
+if TYPE_CHECKING:
+    from mlmg_lang.perform import Performance
+
+
+def save(desk: Desk, argument: str) -> Reply:
+    """Write what was played as motion (.bvh), or the script that plays it again (.ms)."""
+    path = Path(argument).expanduser()
+    if path.suffix.lower() not in (".bvh", ".ms"):
+        raise Refusal(f"name a file that ends in .bvh or .ms, as in `.save stroll.bvh`, found `{argument}`")
+    script = _script(desk.session)
+    if path.suffix.lower() == ".bvh":
+        performance = _perform(desk, script)
+        _write(performance, path)
+        told = f"{path}: {performance.report['n_frames']} frames, {_seconds_of(performance):.1f} s\n"
+        data = {"file": str(path), "frames": performance.report["n_frames"]}
+    else:
+        with atomic_output(path) as temporary:
+            temporary.write_text(_headed(script, desk.session, path), encoding="utf-8")
+        told = f"{path}: {_told(script)}\n"
+        data = {"file": str(path), "as_entered": script.as_entered}
+    desk.saved = desk.session.turns
+    return Reply(told, data)
+
+
+def view(desk: Desk, argument: str) -> Reply:
+    """Open what was played in the player."""
+    performance = _perform(desk, _script(desk.session))
+    folder = Path(tempfile.mkdtemp(prefix="mlmg-repl-"))
+    motion, report = folder / "session.bvh", folder / "session.json"
+    _write(performance, motion)
+    report.write_text(json.dumps(performance.report, ensure_ascii=False), encoding="utf-8")
+    told = desk.show(motion, report)
+    return Reply(f"{told}\n", {"player": told})
+
+
+def set_option(desk: Desk, argument: str) -> Reply:
+    """Set how motion is written, or how the conversation goes; without words, tell how things are set."""
+    name, _, value = argument.partition(" ")
+    settings, value = desk.settings, value.strip()
+    match name, value:
+        case "", _:
+            pass
+        case "blend", "c1" | "linear" | "library":
+            settings.blend = None if value == "library" else value
+        case "feet", "on" | "off":
+            settings.feet = value == "on"
+        case "keys", "emacs" | "vi":
+            settings.keys = value
+        case "fps", _:
+            settings.fps = _rate(value)
+        case _:
+            raise Refusal("expected `blend c1|linear|library`, `fps N|library`, `feet on|off` or `keys emacs|vi`")
+    rows = {
+        "blend": settings.blend or "library",
+        "fps": settings.fps or "library",
+        "feet": "on" if settings.feet else "off",
+        "keys": settings.keys,
+    }
+    return Reply("".join(f"{key} {one}\n" for key, one in rows.items()), rows)
+
+
+def _rate(value: str) -> float | None:
+    if value == "library":
+        return None
+    try:
+        rate = float(value)
+    except ValueError:
+        rate = 0.0
+    if not 0 < rate <= 10000:
+        raise Refusal(f"expected frames a second, as in `.set fps 60`, or `library`; found `{value}`")
+    return rate
+
+
+def time(desk: Desk, argument: str) -> Reply:
+    """Say how long each line takes, or say it no longer."""
+    if argument not in ("", "on", "off"):
+        raise Refusal(f"expected `.time on` or `.time off`, found `{argument}`")
+    desk.settings.time = not desk.settings.time if not argument else argument == "on"
+    return Reply(f"time {'on' if desk.settings.time else 'off'}\n", {"time": desk.settings.time})
+
+
+def _script(session: Session) -> SavedScript:
+    script = script_from_session(session)
+    if script is None:
+        raise Refusal("nothing has been played yet")
+    return script
+
+
+def _write(performance: Performance, path: Path) -> None:
+    from mlmg_runtime import bvh
+
+    bvh.write(performance.bvh, path)
+
+
+def _perform(desk: Desk, script: SavedScript) -> Performance:
+    from mlmg_lang.perform import perform
+
+    settings, session = desk.settings, desk.session
+    return perform(script.plan, session.library, session.seed, settings.fps, settings.blend, settings.feet)
+
+
+def _seconds_of(performance: Performance) -> float:
+    """Return how long a motion is, in seconds."""
+    return float(performance.report["n_frames"] / performance.report["frame_rate"])
+
+
+def _told(script: SavedScript) -> str:
+    if script.as_entered:
+        return "plays exactly what was played"
+    return "plays exactly what was played: with the motions that were taken, as what was entered would play otherwise"
+
+
+def _headed(script: SavedScript, session: Session, path: Path) -> str:
+    """Return a script with a line that says how to play it."""
+    motion = path.with_suffix(".bvh").name
+    called = f"# mlmgc {path.name} -o {motion} --library {session.library.path.name}"
+    return f"{called} --start {session.starts_in} --seed {session.seed}\n{script.text}"
