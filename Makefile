@@ -1,13 +1,13 @@
 # make demo    install, and play examples/tour.ms on the demo library into tour.bvh
 # make test    all tests
 # make lint    style and who may import whom;  make types: mypy;  make bench: measurements beside peers
-# make pictures  the pictures of the README;  make grammars: what editors and the docs have of the grammar
+# make pictures  the pictures of the README;  make recording: the session in it;  make grammars: what editors and the docs have of the grammar
 
 PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 
-.PHONY: demo test lint types bench pictures grammars wheel clean
+.PHONY: demo test lint types bench pictures recording grammars wheel clean
 
 demo: $(VENV)/installed
 	$(BIN)/mlmgc examples/tour.ms -o tour.bvh --report tour.json
@@ -29,6 +29,11 @@ bench: $(VENV)/bench-tools
 
 pictures: $(VENV)/test-tools demo
 	$(BIN)/mlmg view tour.bvh --report tour.json -o docs/tour.png
+
+# A session of `mlmg repl`, as a terminal showed it.
+recording: $(VENV)/installed
+	$(BIN)/pip install --quiet --editable ".[recording]"
+	$(BIN)/python docs/recording/record.py docs/session.svg
 
 grammars: $(VENV)/installed
 	$(BIN)/python -m mlmg_grammar.generate --docs docs
