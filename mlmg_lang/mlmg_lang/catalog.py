@@ -36,6 +36,9 @@ class Catalog(Protocol):
     def can_reach(self, graph: str, source: str, target: str) -> bool:
         """Return whether a walk on `graph` can lead from `source` to `target`."""
 
+    def is_forbidden(self, graph: str, source: str, target: str) -> bool:
+        """Return whether the library's configuration forbids to go from `source` to `target` on `graph` directly."""
+
     def unlikeness(self, graph: str, one: str, other: str) -> float:
         """Return how far apart two motions are on `graph`: their Overall Motion Similarity over the usual one.
 

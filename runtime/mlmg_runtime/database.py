@@ -35,6 +35,7 @@ CREATE TABLE graph (
     joints TEXT NOT NULL, weights TEXT NOT NULL, window INTEGER NOT NULL, sigma REAL NOT NULL, blend TEXT NOT NULL,
     report TEXT NOT NULL,
     transitions BLOB NOT NULL, -- packed, see motion_graph.TRANSITION
+    forbidden BLOB NOT NULL,   -- a byte for each pair of motions, row by row: 1 where the configuration forbids it
     oms BLOB NOT NULL,         -- float64, (n_motions, n_motions)
     hops BLOB NOT NULL         -- int64, (n_motions, n_motions)
 );
@@ -102,7 +103,7 @@ def _write_clips(connection: sqlite3.Connection, built: BuiltLibrary) -> None:
 def _write_graphs(connection: sqlite3.Connection, built: BuiltLibrary) -> None:
     for ordinal, (graph, report) in enumerate(zip(built.graphs, built.reports, strict=True)):
         connection.execute(
-            "INSERT INTO graph VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
+            "INSERT INTO graph VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
             (
                 graph.name,
                 ordinal,
@@ -114,6 +115,7 @@ def _write_graphs(connection: sqlite3.Connection, built: BuiltLibrary) -> None:
                 graph.blend,
                 json.dumps(asdict(report), ensure_ascii=False),
                 graph.transitions.tobytes(),
+                graph.forbidden.tobytes(),
                 graph.oms.astype("<f8").tobytes(),
                 graph.hops.astype("<i8").tobytes(),
             ),
@@ -149,7 +151,7 @@ def read_graphs(connection: sqlite3.Connection) -> list[tuple[MotionGraph, dict[
     motions = read_part(connection, "motion")
     graphs = []
     for row in read_part(connection, "graph"):
-        name, parent, joints, weights, window, sigma, blend, report, transitions, oms, hops = row
+        name, parent, joints, weights, window, sigma, blend, report, transitions, forbidden, oms, hops = row
         tags = {clip: tuple(json.loads(words)) for graph_of, clip, words in motions if graph_of == name}
         shape = (len(tags), len(tags))
         graph = MotionGraph(
@@ -164,6 +166,7 @@ def read_graphs(connection: sqlite3.Connection) -> list[tuple[MotionGraph, dict[
             tags=tags,
             n_frames=np.array([frames[motion] for motion in tags], dtype=np.int64),
             transitions=np.frombuffer(transitions, dtype=TRANSITION),
+            forbidden=np.frombuffer(forbidden, dtype=bool).reshape(shape),
             oms=np.frombuffer(oms, dtype="<f8").reshape(shape),
             hops=np.frombuffer(hops, dtype="<i8").reshape(shape),
         )

@@ -74,6 +74,11 @@ class Library:
         own = self.by_name[graph]
         return bool(own.hops[own.index[source], own.index[target]] != UNREACHABLE)
 
+    def is_forbidden(self, graph: str, source: str, target: str) -> bool:
+        """Return whether the configuration forbids to go from `source` to `target` on `graph` directly."""
+        own = self.by_name[graph]
+        return bool(own.forbidden[own.index[source], own.index[target]])
+
     def unlikeness(self, graph: str, one: str, other: str) -> float:
         """Return how far apart two motions are on `graph`: their Overall Motion Similarity over the usual one.
 

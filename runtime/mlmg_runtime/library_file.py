@@ -17,7 +17,7 @@ from mlmg_runtime.errors import LibraryError
 
 # "mlmg" in ASCII: says whose SQLite file this is.
 APPLICATION_ID = 0x6D6C6D67
-FORMAT_VERSION = 2
+FORMAT_VERSION = 3
 
 # SQLite puts a whole damaged column into its message.
 _LONGEST_REASON = 60
@@ -27,8 +27,8 @@ PARTS = {
     "property": "SELECT name, value FROM property ORDER BY rowid",
     "clip": "SELECT name, n_frames FROM clip ORDER BY rowid",
     "graph": (
-        "SELECT name, parent, joints, weights, window, sigma, blend, report, transitions, oms, hops FROM graph "
-        "ORDER BY ordinal"
+        "SELECT name, parent, joints, weights, window, sigma, blend, report, transitions, forbidden, oms, hops "
+        "FROM graph ORDER BY ordinal"
     ),
     "motion": "SELECT graph, clip, tags FROM motion ORDER BY rowid",
 }

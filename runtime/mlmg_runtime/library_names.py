@@ -25,12 +25,14 @@ class GraphNames:
     tags : motion -> tags, in configuration order.
     hops : for each pair of motions, row by row, the fewest transitions that lead from the one to the other; else -1.
     oms : the same way, their overall motion similarity.
+    forbidden : the same way, 1 where the configuration forbids to go from the one to the other.
     """
 
     parent: str | None
     tags: Mapping[str, tuple[str, ...]]
     hops: Sequence[int] = field(repr=False)
     oms: Sequence[float] = field(repr=False)
+    forbidden: bytes = field(repr=False)
 
     @cached_property
     def motions(self) -> tuple[str, ...]:
@@ -46,7 +48,7 @@ class GraphNames:
         return sum(middle) / len(middle) if middle else 0.0
 
     def pair(self, one: str, other: str) -> int:
-        """Return where a pair of motions stands in `hops` and `oms`."""
+        """Return where a pair of motions stands in `hops`, `oms` and `forbidden`."""
         return self._index[one] * len(self.tags) + self._index[other]
 
     @cached_property
@@ -93,6 +95,11 @@ class LibraryNames:
         own = self.by_name[graph]
         return own.hops[own.pair(source, target)] >= 0
 
+    def is_forbidden(self, graph: str, source: str, target: str) -> bool:
+        """Return whether the configuration forbids to go from `source` to `target` on `graph` directly."""
+        own = self.by_name[graph]
+        return own.forbidden[own.pair(source, target)] == 1
+
     def unlikeness(self, graph: str, one: str, other: str) -> float:
         """Return how far apart two motions are on `graph`: their Overall Motion Similarity over the usual one.
 
@@ -122,9 +129,9 @@ def open_names(path: str | Path) -> LibraryNames:
         frames = dict(read_part(connection, "clip"))
         motions = read_part(connection, "motion")
         graphs = {}
-        for name, parent, *_, oms, hops in read_part(connection, "graph"):
+        for name, parent, *_, forbidden, oms, hops in read_part(connection, "graph"):
             tags = {clip: tuple(json.loads(words)) for graph_of, clip, words in motions if graph_of == name}
-            graphs[name] = GraphNames(parent, tags, _unpacked("q", hops), _unpacked("d", oms))
+            graphs[name] = GraphNames(parent, tags, _unpacked("q", hops), _unpacked("d", oms), forbidden)
     return LibraryNames(path, properties["start"], properties["frame_rate"], graphs, frames)
 
 

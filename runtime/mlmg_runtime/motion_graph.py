@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from mlmg_runtime.arrays import FloatArray, IntArray
+from mlmg_runtime.arrays import BoolArray, FloatArray, IntArray
 
 # One transition: from A_i (its first blended frame) to B_j (its last), distance D and cost 1 - exp(-D / sigma).
 # A graph's transitions are sorted by source motion, source frame, target motion, target frame; searching relies on it.
@@ -72,6 +72,7 @@ class MotionGraph:
     tags : motion -> tags, in configuration order.
     n_frames : array, shape (n_motions,). Frames of each motion.
     transitions : array of `TRANSITION`, sorted.
+    forbidden : array, shape (n_motions, n_motions). Whether the configuration forbids to go from a motion to another.
     oms : array, shape (n_motions, n_motions). Overall motion similarity; smaller means more alike.
     hops : array, shape (n_motions, n_motions). Fewest transitions from a motion to another, or `UNREACHABLE`.
     """
@@ -87,6 +88,7 @@ class MotionGraph:
     tags: Mapping[str, tuple[str, ...]]
     n_frames: IntArray
     transitions: np.ndarray[tuple[int], np.dtype[np.void]]
+    forbidden: BoolArray
     oms: FloatArray
     hops: IntArray
 

@@ -25,6 +25,7 @@ class FakeCatalog:
     on : by graph, its motions with their tags; the first graph is the root.
     above : by graph, the one above it.
     cut : (graph, source, target) that no walk leads along.
+    forbidden : (graph, source, target) that the configuration forbids to go directly; a way round may lead there.
     far : (graph, one, other) -> how unlike, where that is not as usual.
     """
 
@@ -33,6 +34,7 @@ class FakeCatalog:
     start: str = "Idle_01"
     frame_rate: float = 30.0
     cut: frozenset[tuple[str, str, str]] = field(default_factory=frozenset)
+    forbidden: frozenset[tuple[str, str, str]] = field(default_factory=frozenset)
     far: Mapping[tuple[str, str, str], float] = field(default_factory=dict)
 
     @property
@@ -51,6 +53,10 @@ class FakeCatalog:
     def can_reach(self, graph: str, source: str, target: str) -> bool:
         assert {source, target} <= set(self.on[graph]), f"a real library has no {source} and {target} on {graph}"
         return (graph, source, target) not in self.cut
+
+    def is_forbidden(self, graph: str, source: str, target: str) -> bool:
+        assert {source, target} <= set(self.on[graph]), f"a real library has no {source} and {target} on {graph}"
+        return (graph, source, target) in self.forbidden
 
     def unlikeness(self, graph: str, one: str, other: str) -> float:
         return self.far.get((graph, one, other), 1.0)
@@ -103,6 +109,7 @@ CUT = replace(
         for target in ("Talk_01", "Talk_02")
     ),
 )
+FORBIDS = replace(CUT, forbidden=frozenset({("Full-Body", "Idle_01", "Talk_01"), ("Full-Body", "Idle_01", "Talk_02")}))
 LIBRARIES: Mapping[str, FakeCatalog | None] = {
     "none": None,
     "reference": REFERENCE,
@@ -110,6 +117,7 @@ LIBRARIES: Mapping[str, FakeCatalog | None] = {
     "hands": HANDS,
     "twins": TWINS,
     "cut": CUT,
+    "forbids": FORBIDS,
     "far": replace(REFERENCE, far={("Upper-Body", "Walk_02", "Talk_02"): 4.0}),
 }
 

@@ -62,7 +62,7 @@ def test_graphs_come_back_as_they_were_written(built: BuiltLibrary, path: Path) 
     for found, expected in zip(graphs, built.graphs, strict=True):
         for field in ("name", "parent", "joints", "window", "sigma", "blend", "motions", "tags"):
             assert getattr(found, field) == getattr(expected, field)
-        for field in ("weights", "n_frames", "transitions", "oms", "hops"):
+        for field in ("weights", "n_frames", "transitions", "forbidden", "oms", "hops"):
             np.testing.assert_array_equal(getattr(found, field), getattr(expected, field))
 
 

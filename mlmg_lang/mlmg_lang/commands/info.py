@@ -117,6 +117,7 @@ def _graph_description(library: Library, graph: str) -> dict[str, Any]:
         "sigma": own.sigma,
         "blend": own.blend,
         "motions": {motion: list(own.tags[motion]) for motion in own.motions},
+        "n_forbidden": int(own.forbidden.sum()),
         **library.reports[graph],
     }
 
@@ -145,6 +146,8 @@ def _graph_lines(graph: dict[str, Any], description: dict[str, Any]) -> Iterator
         lost = graph["lost_frames"].get(motion)
         note = "  cannot be led to" if motion in graph["lost_motions"] else f"  {lost} frames lost" if lost else ""
         yield f"  {motion:<{width}}  {n_frames / description['frame_rate']:6.1f} s  {', '.join(tags) or '-'}{note}"
+    if graph["n_forbidden"]:
+        yield f"  forbidden: {graph['n_forbidden']} of the pairs of motions, to follow each other directly"
     if graph["bridges"]:
         distances = [distance for _, _, distance in graph["bridges"]]
         yield f"  bridged: {len(distances)} transitions above that, {min(distances):.3g} to {max(distances):.3g}"

@@ -367,11 +367,11 @@ class _Resolver:
 
     def _as_stop(self, way: typed.Layering, narrow: Narrow) -> Stopped:
         """Return what stops a command if the earlier ones cannot be narrowed for it."""
-        span = next(layer.span for layer in way.layers if layer.graph == narrow.graph)
+        layer = next(layer for layer in way.layers if layer.graph == narrow.graph)
         setter = min(narrow.without)
         motions = tuple(motion for motion in self.names.motions(setter[1]) if motion in narrow.without[setter])
         by_rule_1 = not any(motion in self.names.motion_set(narrow.graph) for motion in motions)
-        return Stopped(narrow.graph, span, setter[1], motions, by_rule_1, setter, within=False)
+        return Stopped(narrow.graph, layer.span, layer.motions, setter[1], motions, by_rule_1, setter, within=False)
 
     def _take_back(self, trial: _Trial) -> int:
         """Undo a narrowing that leaves nothing to an earlier command: the later one is refused."""

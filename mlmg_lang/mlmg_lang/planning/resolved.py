@@ -14,7 +14,7 @@ class LeftOut:
 
     Attributes
     ----------
-    reason : `rule 1`, `unreachable`, `later command` or `look ahead`.
+    reason : the name of the rule that says so, see `rules.table`; or `look ahead`.
     because : the same in words, with the graph or line that it is about.
     """
 

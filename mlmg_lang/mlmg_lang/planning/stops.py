@@ -8,6 +8,7 @@ from mlmg_lang.catalog import Catalog
 from mlmg_lang.diagnostics import Diagnostic, Fix, Note
 from mlmg_lang.parsing.lexical import script_name
 from mlmg_lang.planning import typed
+from mlmg_lang.planning.forbidding import why_forbidden
 from mlmg_lang.planning.names import Kind, Names
 from mlmg_lang.planning.rules.ruling import Stopped
 from mlmg_lang.source import Span
@@ -26,7 +27,7 @@ def reason(
     graph, motions = stopped.graph, some(stopped.motions)
     if not stopped.by_rule_1:
         message = f"nothing asked of `{graph}` can be reached from {motions}"
-        advice = f"no transition of `{graph}` leads there; play another motion in between, or first"
+        advice = _missing(stopped, names, catalog)
         return Diagnostic("MS041", message, stopped.span, advice, notes)
     verb = "is" if len(stopped.motions) == 1 else "are"
     message = f"`{graph}` cannot do this during {motions}, which {verb} not on `{graph}`"
@@ -35,6 +36,15 @@ def reason(
         return Diagnostic("MS040", message, stopped.span, advice, notes, (Fix(span, tag, safe=False),))
     free = _on_both(names.motions(stopped.above), graph, names)
     return Diagnostic("MS040", message, stopped.span, f"it can during {some(free)}" if free else None, notes)
+
+
+def _missing(stopped: Stopped, names: Names, catalog: Catalog) -> str:
+    """Say why no way leads from some motions to what is wanted, and what to do about it."""
+    sources = _on_both(stopped.motions, stopped.graph, names)
+    because = why_forbidden(stopped.graph, sources, stopped.wanted, catalog)
+    if because is not None:
+        return f"{because}; come from another motion"
+    return f"no transition of `{stopped.graph}` leads there; play another motion in between, or first"
 
 
 def _looser(

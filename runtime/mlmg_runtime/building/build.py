@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from mlmg_runtime.arrays import FloatArray, IntArray
+from mlmg_runtime.arrays import BoolArray, FloatArray, IntArray
 from mlmg_runtime.building.candidates import Candidates, find_candidates
 from mlmg_runtime.building.combine import graph_joints, graph_parents, overall_motion_similarity
 from mlmg_runtime.building.configuration import GraphConfiguration, LibraryConfiguration, check_start
@@ -124,7 +124,8 @@ def _build_graph(
     tell(len(pairs), len(pairs))
     points_in_window = settings.window * float(weights.sum())
     sigma = _sigma(settings, results, points_in_window * (SMOOTH_SHARE * stature) ** 2)
-    edges = _edges(settings, motions, pairs, results)
+    forbidden = np.array([[(x, y) in settings.forbidden for y in motions] for x in motions])
+    edges = _edges(settings.window, forbidden, pairs, results)
     positions = Positions(n_frames)
     if settings.threshold.kind == "auto":
         own = [points[motion][:, list(joints)] for motion in motions]
@@ -146,6 +147,7 @@ def _build_graph(
         tags=dict(settings.motions),
         n_frames=n_frames,
         transitions=_packed(kept, sigma),
+        forbidden=forbidden,
         oms=_oms(len(motions), pairs, results),
         hops=_hops(len(motions), kept),
     )
@@ -176,13 +178,12 @@ def _sigma(settings: GraphConfiguration, results: Sequence[_PairResult], smooth:
 
 
 def _edges(
-    settings: GraphConfiguration,
-    motions: Sequence[str],
+    k: int,
+    forbidden: BoolArray,
     pairs: Sequence[tuple[int, int]],
     results: Sequence[_PairResult],
 ) -> Edges:
     """Return the transitions of all candidates, both ways, less those that the configuration forbids."""
-    k = settings.window
     counts = [len(result.candidates.i) for result in results]
     a, b = (np.repeat([pair[side] for pair in pairs], counts) for side in (0, 1))
     i, s, distance = (np.concatenate([result.candidates[field] for result in results]) for field in range(3))
@@ -193,8 +194,7 @@ def _edges(
         dst_frame=np.concatenate((s, i)) + k - 1,
         distance=np.concatenate((distance, distance)),
     )
-    allowed = np.array([[(x, y) not in settings.forbidden for y in motions] for x in motions])
-    return edges.where(allowed[edges.src_motion, edges.dst_motion])
+    return edges.where(~forbidden[edges.src_motion, edges.dst_motion])
 
 
 def _packed(edges: Edges, sigma: float) -> np.ndarray[tuple[int], np.dtype[np.void]]:

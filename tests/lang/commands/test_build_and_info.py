@@ -121,6 +121,20 @@ def test_info_as_json_holds_what_the_text_says(built, capsys):
     assert upper["motions"] == {"Step": ["SWING"], "Reach": ["TALK"]}
 
 
+def test_what_the_configuration_forbids_is_told_by_info_and_by_check(folder, capsys):
+    rules = '\n[[transitions]]\nforbid = [["IDLE", "WALK"], ["IDLE", "TALK"], ["WALK", "IDLE"], ["TALK", "IDLE"]]\n'
+    text = (folder / "library.toml").read_text(encoding="utf-8")
+    (folder / "library.toml").write_text(text + rules, encoding="utf-8")
+    (folder / "off.ms").write_text("Stand\nWALK\n", encoding="utf-8")
+    assert mlmg.main(["build", "library.toml", "-o", "my.mlmg"]) == 0
+    assert mlmg.main(["info", "my.mlmg", "--json"]) == 0
+    assert [graph["n_forbidden"] for graph in json.loads(capsys.readouterr().out)["graphs"]] == [4, 0]
+    assert mlmg.main(["info", "my.mlmg"]) == 0
+    assert "\n  forbidden: 4 of the pairs of motions, to follow each other directly\n" in capsys.readouterr().out
+    assert mlmg.main(["check", "off.ms", "--library", "my.mlmg"]) == 1
+    assert "help: library.toml forbids going from `Stand` to `Step` on `Full-Body`" in capsys.readouterr().out
+
+
 @pytest.mark.parametrize(
     ("option", "columns"),
     [

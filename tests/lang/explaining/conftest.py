@@ -79,6 +79,7 @@ def made_graph(name: str, parent: str | None, tags: dict[str, tuple[str, ...]], 
         tags=tags,
         n_frames=n_frames,
         transitions=np.array(edges, dtype=TRANSITION),
+        forbidden=np.zeros((n, n), dtype=bool),
         oms=100.0 * np.abs(at[:, None] - at[None, :]) + (at[:, None] * at[None, :]) % 7,
         hops=np.where(steps == 0, 0, np.minimum((steps + 1) // 2, n - steps)),
     )

@@ -136,6 +136,7 @@ def graph_from(n_frames: Sequence[int], window: int, rows: Sequence[tuple[float,
         tags=dict.fromkeys(names, ()),
         n_frames=np.array(n_frames),
         transitions=np.array([tuple(row) for row in rows], dtype=TRANSITION),
+        forbidden=np.zeros((size, size), dtype=bool),
         oms=np.ones((size, size)),
         hops=_hops(size, rows),
     )

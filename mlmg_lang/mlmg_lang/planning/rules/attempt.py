@@ -126,11 +126,24 @@ class Attempt:
         kept = own.motions & self.on(graph) if own is not None and self.may_stay(above) else frozenset()
         return self.driving(graph) | kept
 
+    def unreached(self, graph: str) -> tuple[str, ...]:
+        """Return the candidates of a layer that no way leads to; what begins anew, or plays already, needs none."""
+        if graph == self.begins:
+            return ()
+        sources = self.sources(graph)
+        there = sources | self.driving(graph)
+        return tuple(
+            motion
+            for motion in self.left[graph]
+            if motion not in there and not any(self.reaches(graph, source, motion) for source in sources)
+        )
+
     # --- what keeps the command from being obeyed ---
 
     def stopped(self, graph: str, above: str, motions: tuple[str, ...], by_rule_1: bool) -> Stopped:
         """Say that the command itself leaves nothing for a layer: `motions` of the layer above stand in the way."""
-        return Stopped(graph, self.layers[graph].span, above, motions, by_rule_1, setter=None, within=True)
+        span, wanted = self.layers[graph].span, self.left[graph]
+        return Stopped(graph, span, wanted, above, motions, by_rule_1, setter=None, within=True)
 
     def hindered(self, graph: str, above: str, bad: frozenset[str]) -> Narrow | Stopped | None:
         """Say of the motions that a layer may have to set out from, and cannot, which earlier commands set them.
@@ -156,4 +169,5 @@ class Attempt:
         known = dict.fromkeys(motion for higher in self.names.graphs for motion in self.names.motions(higher))
         motions = tuple(motion for motion in known if motion in at_fault)
         by_rule_1 = not at_fault & self.on(graph)
-        return Stopped(graph, self.layers[graph].span, above, motions, by_rule_1, setter, not self.state.certain)
+        span, wanted = self.layers[graph].span, self.left[graph]
+        return Stopped(graph, span, wanted, above, motions, by_rule_1, setter, not self.state.certain)

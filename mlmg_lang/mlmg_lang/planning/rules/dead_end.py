@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from mlmg_lang.planning.forbidding import why_forbidden
 from mlmg_lang.planning.rules.attempt import Attempt
 from mlmg_lang.planning.rules.ruling import Out, Ruling
 
@@ -13,7 +14,8 @@ def dead_end(attempt: Attempt, graph: str) -> Ruling:
         return ()
     motions = attempt.left[above]
     ends = {motion: _ends(attempt, graph, above, motion) for motion in motions}
-    out = tuple(Out(above, motion, _because(graph, motion, ends[motion])) for motion in motions if ends[motion])
+    dead = [motion for motion in motions if ends[motion]]
+    out = tuple(Out(above, motion, _because(attempt, graph, motion, ends[motion])) for motion in dead)
     if len(out) < len(motions):
         return out
     for motion in motions:
@@ -40,6 +42,8 @@ def _ends(attempt: Attempt, graph: str, above: str, motion: str) -> frozenset[st
     return dead if attempt.state.certain or dead == sources else frozenset()
 
 
-def _because(graph: str, motion: str, ends: frozenset[str]) -> str:
+def _because(attempt: Attempt, graph: str, motion: str, ends: frozenset[str]) -> str:
     source = "it" if motion in ends else f"what `{graph}` may play with it"
-    return f"nothing asked of `{graph}` can be reached from {source}"
+    sources = tuple(one for one in attempt.names.motions(graph) if one in ends)
+    because = why_forbidden(graph, sources, attempt.left[graph], attempt.catalog)
+    return f"nothing asked of `{graph}` can be reached from {source}{f': {because}' if because else ''}"

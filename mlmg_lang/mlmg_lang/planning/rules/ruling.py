@@ -41,6 +41,7 @@ class Stopped:
     ----------
     graph : on which nothing is left.
     span : of what it should do there.
+    wanted : the motions that it could take there.
     above : the graph whose motions stand in the way, `graph` itself if it runs already.
     motions : those motions.
     by_rule_1 : whether rule 1 forbids it; else nothing can be reached.
@@ -50,6 +51,7 @@ class Stopped:
 
     graph: str
     span: Span
+    wanted: tuple[str, ...]
     above: str
     motions: tuple[str, ...]
     by_rule_1: bool

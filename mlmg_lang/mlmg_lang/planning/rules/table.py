@@ -8,6 +8,7 @@ from enum import Enum
 
 from mlmg_lang.planning.rules.attempt import Attempt
 from mlmg_lang.planning.rules.dead_end import dead_end
+from mlmg_lang.planning.rules.forbidden import forbidden
 from mlmg_lang.planning.rules.later_command import later_command
 from mlmg_lang.planning.rules.outranked import outranked
 from mlmg_lang.planning.rules.rule_1 import rule_1
@@ -43,6 +44,7 @@ RULES = (
     Rule("rule 1", Order.UPWARDS, rule_1),
     Rule("dead end", Order.UPWARDS, dead_end),
     Rule("way on", Order.DOWNWARDS, way_on),
+    Rule("forbidden", Order.DOWNWARDS, forbidden),
     Rule("unreachable", Order.DOWNWARDS, unreachable),
     Rule("outranked", Order.LAST, outranked),
 )

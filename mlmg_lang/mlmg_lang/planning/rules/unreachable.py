@@ -7,13 +7,5 @@ from mlmg_lang.planning.rules.ruling import Out, Ruling
 
 
 def unreachable(attempt: Attempt, graph: str) -> Ruling:
-    """Leave out of a layer what cannot be reached; what begins anew, or plays already, needs no way."""
-    if graph == attempt.begins:
-        return ()
-    sources = attempt.sources(graph)
-    there = sources | attempt.driving(graph)
-    return tuple(
-        Out(graph, motion, "it cannot be reached")
-        for motion in attempt.left[graph]
-        if motion not in there and not any(attempt.reaches(graph, source, motion) for source in sources)
-    )
+    """Leave out of a layer what cannot be reached."""
+    return tuple(Out(graph, motion, "it cannot be reached") for motion in attempt.unreached(graph))

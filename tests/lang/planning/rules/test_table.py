@@ -26,10 +26,20 @@ by_name = pytest.mark.parametrize("rule", RULES, ids=lambda rule: rule.judge.__n
 def asked_for(text: str, libraries: Mapping[str, Any]) -> Any:
     """Return the library that a script is for, as its comments say."""
     (name,) = re.findall(r"^# library: (\S+)$", text, re.MULTILINE)
+    lost = [line.split() for line in re.findall(r"^# lost: (.+)$", text, re.MULTILINE)]
     cut = {tuple(line.split()) for line in re.findall(r"^# cut: (.+)$", text, re.MULTILINE)}
+    cut |= {way for graph, motion in lost for way in _ways_of(libraries[name], graph, motion)}
+    forbid = {tuple(line.split()) for line in re.findall(r"^# forbid: (.+)$", text, re.MULTILINE)}
     far = [line.split() for line in re.findall(r"^# far: (.+)$", text, re.MULTILINE)]
     distances = {(graph, one, other): float(times) for graph, one, other, times in far}
-    return replace(libraries[name], cut=frozenset(cut), far=distances)
+    return replace(libraries[name], cut=frozenset(cut), forbidden=frozenset(forbid), far=distances)
+
+
+def _ways_of(library: Any, graph: str, motion: str) -> Iterator[tuple[str, str, str]]:
+    """Yield all ways to and from a motion that is cut off from the others."""
+    for other in library.motions(graph):
+        if other != motion:
+            yield from ((graph, motion, other), (graph, other, motion))
 
 
 def resolved(rule: Rule, libraries: Mapping[str, Any]) -> Resolution:
