@@ -6,13 +6,29 @@ is possible without a library; the TextMate grammar says the same in regular exp
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from enum import Enum, StrEnum, auto
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Final
+from typing import Final, Generic, Protocol, TypeVar
 
-if TYPE_CHECKING:
-    from lark import Token
+
+class Placed(Protocol):
+    """A token of the grammar with its place, be it the parser's own or the compiler's."""
+
+    @property
+    def type(self) -> str:
+        """Return the name of its terminal."""
+
+    @property
+    def start_pos(self) -> int | None:
+        """Return where it begins."""
+
+    @property
+    def end_pos(self) -> int | None:
+        """Return where it ends."""
+
+
+Token = TypeVar("Token", bound=Placed)
 
 
 class Role(StrEnum):
@@ -68,8 +84,8 @@ _ENDS_PARENTHESES: Final = frozenset({"SEMICOLON", "OPEN", "CLOSE", "BAR"})
 
 
 def roles(tokens: Iterable[Token]) -> Iterator[tuple[Token, Role]]:
-    """Yield every token of a text with its role, white space too."""
-    reader = _Reader()
+    """Yield every token of a text with its role; white space too, which may be left out."""
+    reader: _Reader[Token] = _Reader()
     line: list[Token] = []
     for token in tokens:
         line.append(token)
@@ -87,7 +103,7 @@ class _Inside(Enum):
     DEFAULT = auto()
 
 
-class _Reader:
+class _Reader(Generic[Token]):
     """Takes one line after the other; knows the parentheses that are open."""
 
     def __init__(self) -> None:
@@ -143,6 +159,6 @@ class _Reader:
         return Role.GRAPH if after in _NAMES else ROLES[kind]
 
 
-def _type(line: list[Token], at: int) -> str | None:
+def _type(line: Sequence[Placed], at: int) -> str | None:
     """Return the type of a token of a line, None beside the line."""
     return line[at].type if 0 <= at < len(line) else None

@@ -29,3 +29,13 @@ class Token:
     type: str
     text: str
     span: Span
+
+    @property
+    def start_pos(self) -> int:
+        """Return where it begins, in the grammar's words."""
+        return self.span.start
+
+    @property
+    def end_pos(self) -> int:
+        """Return where it ends, in the grammar's words."""
+        return self.span.end

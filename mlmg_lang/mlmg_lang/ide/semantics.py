@@ -1,0 +1,238 @@
+"""An analysis -> what each token of its text is to a reader, by what the names mean in the library.
+
+The grammar's roles say what a name is for; the library and the script's definitions, what it means. Both are found
+piece by piece, and kept for the next text: places are counted from where a piece begins.
+"""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from enum import StrEnum
+from types import MappingProxyType
+from typing import Final
+
+from mlmg_grammar.roles import Role, roles
+from mlmg_lang.analysis import Analysis
+from mlmg_lang.parsing.build_syntax import name_from_token
+from mlmg_lang.parsing.layout import Block, Line, lay_out
+from mlmg_lang.parsing.structure import is_sub
+from mlmg_lang.parsing.syntax import Name
+from mlmg_lang.parsing.tokens import NAMES, Token
+from mlmg_lang.pieces import Piece
+from mlmg_lang.planning.names import Kind as LibraryKind
+from mlmg_lang.planning.names import Names
+from mlmg_lang.source import Span
+from mlmg_lang.spelling import normal
+
+
+class Kind(StrEnum):
+    """What a token is; `NAME` where no library says what it means."""
+
+    MOTION = "motion"
+    TAG = "tag"
+    NAME = "name"
+    GRAPH = "graph"
+    DEFINITION = "definition"
+    PARAMETER = "parameter"
+    KEYWORD = "keyword"
+    NUMBER = "number"
+    UNIT = "unit"
+    STRING = "string"
+    COMMENT = "comment"
+
+
+@dataclass(frozen=True, slots=True)
+class Mark:
+    """What a stretch of text is.
+
+    Attributes
+    ----------
+    declaration : whether it is defined here. unknown : whether it is a name that means nothing.
+    """
+
+    span: Span
+    kind: Kind
+    declaration: bool = False
+    unknown: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Painted:
+    """The marks of a piece, places counted from its beginning; `names`: what was looked up for them, in NFC."""
+
+    piece: Piece
+    marks: tuple[Mark, ...]
+    names: frozenset[str]
+
+
+@dataclass(frozen=True, slots=True)
+class Painting:
+    """The marks of a text, in pieces: those that an edit leaves alone are the same objects in the next.
+
+    Attributes
+    ----------
+    starts : where the pieces begin; last, where the text ends.
+    """
+
+    parts: tuple[Painted, ...]
+    starts: Sequence[int]
+    _against: _Meanings
+
+    def marks(self) -> Iterator[Mark]:
+        """Yield all marks, in the order of the text."""
+        for start, part in zip(self.starts, self.parts, strict=False):
+            yield from (_further(mark, start) for mark in part.marks)
+
+    def within(self, span: Span) -> Iterator[Mark]:
+        """Yield the marks that touch a stretch of the text."""
+        at = max(0, bisect_right(self.starts, span.start) - 1)
+        while at < len(self.parts) and self.starts[at] < span.end:
+            moved = (_further(mark, self.starts[at]) for mark in self.parts[at].marks)
+            yield from (mark for mark in moved if mark.span.start < span.end and mark.span.end > span.start)
+            at += 1
+
+
+def paint(analysis: Analysis, previous: Painting | None = None) -> Painting:
+    """Return what the tokens of a script are. Whatever it says, this does not fail.
+
+    Parameters
+    ----------
+    previous : of an earlier text of the same script, if there is one: what an edit has left alone is taken from it.
+    """
+    made = analysis.made
+    defined = made.gathered.definitions
+    against = _Meanings(analysis.question.names, frozenset(defined.lets), defined.complete)
+    kept = _kept(previous, against)
+    parts = tuple([kept.get(id(piece)) or _painted(piece, against) for piece in made.pieces])
+    return Painting(parts, made.places.starts, against)
+
+
+@dataclass(frozen=True, slots=True)
+class _Meanings:
+    """What decides what names mean."""
+
+    names: Names | None
+    lets: frozenset[str]
+    complete: bool
+
+    def of(self, name: Name, role: Role) -> tuple[Kind, bool]:
+        """Return what a name is, and whether it is unknown."""
+        if role is not Role.GRAPH and normal(name.text) in self.lets:
+            return Kind.DEFINITION, False
+        if self.names is None:
+            return _UNREAD.get(role, Kind.NAME), False
+        if role in _UNREAD:
+            return self._before_others(name, role, self.names)
+        return self._of_motions(name.text, self.names)
+
+    def _before_others(self, name: Name, role: Role, names: Names) -> tuple[Kind, bool]:
+        """Return what a name is that stands before a name or a parenthesis."""
+        if is_sub(name) or names.graph(name.text) is not None:
+            return Kind.GRAPH, False
+        return _UNREAD[role], self.complete
+
+    def _of_motions(self, name: str, names: Names) -> tuple[Kind, bool]:
+        """Return what a name is that stands for motions; a graph's cannot, but is known."""
+        matches = (names.find_unqualified(graph, name) for graph in names.graphs)
+        match = next((one for one in matches if one is not None), None)
+        if match is not None:
+            return (Kind.MOTION if match.entry.kind is LibraryKind.MOTION else Kind.TAG), False
+        return (Kind.GRAPH, False) if names.graph(name) is not None else (Kind.NAME, self.complete)
+
+
+_UNREAD: Final[Mapping[Role, Kind]] = MappingProxyType({Role.GRAPH: Kind.GRAPH, Role.CALL: Kind.DEFINITION})
+"""What a name is for its place alone."""
+
+_KINDS: Final[Mapping[Role, Kind]] = MappingProxyType(
+    {
+        Role.COMMENT: Kind.COMMENT,
+        Role.DECLARATION: Kind.KEYWORD,
+        Role.IMPORT: Kind.KEYWORD,
+        Role.STATEMENT: Kind.KEYWORD,
+        Role.JOINER: Kind.KEYWORD,
+        Role.CLAUSE: Kind.KEYWORD,
+        Role.RESERVED: Kind.KEYWORD,
+        Role.NUMBER: Kind.NUMBER,
+        Role.UNIT: Kind.UNIT,
+    }
+)
+"""What a token is that is no name."""
+
+
+def _kept(previous: Painting | None, against: _Meanings) -> dict[int, Painted]:
+    """Return, by the identity of its piece, what is still right of an earlier painting."""
+    if previous is None:
+        return {}
+    before = previous._against
+    if before.names is not against.names or before.complete != against.complete:
+        return {}
+    changed = before.lets ^ against.lets
+    return {id(part.piece): part for part in previous.parts if changed.isdisjoint(part.names)}
+
+
+def _painted(piece: Piece, against: _Meanings) -> Painted:
+    marks: list[Mark] = []
+    names: set[str] = set()
+    parameters = _parameters(piece.tokens)
+    before = ""
+    for token, role in roles(piece.tokens):
+        span = Span(token.span.start - piece.address, token.span.end - piece.address)
+        if token.type == "STRING" and before == "USE":
+            marks.append(Mark(span, Kind.STRING))
+        elif token.type in NAMES and role is not Role.UNIT:
+            name = name_from_token(token)
+            names.add(normal(name.text))
+            marks.append(_named(name, role, span, parameters.get(token.span.start, {}), against))
+        elif token.type == "UNCLOSED":
+            marks.append(Mark(span, Kind.STRING))
+        elif role in _KINDS:
+            marks.append(Mark(span, _KINDS[role]))
+        before = token.type
+    return Painted(piece, tuple(marks), frozenset(names))
+
+
+def _named(name: Name, role: Role, span: Span, parameters: Mapping[str, int], against: _Meanings) -> Mark:
+    """Return the mark of a name; `parameters`: those of its definition, each with where it is declared."""
+    if role is Role.DEFINED:
+        return Mark(span, Kind.DEFINITION, declaration=True)
+    if role is Role.PARAMETER or (role is not Role.GRAPH and normal(name.text) in parameters):
+        at = parameters.get(normal(name.text))
+        return Mark(span, Kind.PARAMETER, declaration=at == span.start)
+    kind, unknown = against.of(name, Role.NAME if role is Role.QUOTED else role)
+    return Mark(span, kind, unknown=unknown)
+
+
+def _parameters(tokens: Sequence[Token]) -> dict[int, Mapping[str, int]]:
+    """Return, by the beginning of each token of a definition, its parameters and where they are declared."""
+    if all(token.type != "LET" for token in tokens):
+        return {}
+    first = tokens[0].span.start
+    lines = (line for line in _lines(lay_out(tokens).items) if line[0].type == "LET")
+    found = ((line, _declared(line, first)) for line in lines)
+    return {token.span.start: declared for line, declared in found for token in line}
+
+
+def _lines(items: Sequence[Line | Block]) -> Iterator[tuple[Token, ...]]:
+    for item in items:
+        if isinstance(item, Line):
+            yield item.tokens
+        else:
+            yield from (line for branch in item.branches for line in _lines(branch))
+
+
+def _declared(line: Sequence[Token], first: int) -> dict[str, int]:
+    """Return the parameters in the head of a definition, with their places from the first token of the piece."""
+    declared: dict[str, int] = {}
+    for (token, role), before in zip(roles(line[2:]), line[1:], strict=False):
+        if token.type == "RIGHT" or (token.type == "EQUALS" and not declared):
+            break
+        if before.type in ("LEFT", "COMMA") and token.type in ("NAME", "UNIT") and role is not Role.UNIT:
+            declared.setdefault(normal(token.text), token.span.start - first)
+    return declared
+
+
+def _further(mark: Mark, distance: int) -> Mark:
+    span = Span(mark.span.start + distance, mark.span.end + distance)
+    return Mark(span, mark.kind, mark.declaration, mark.unknown)
