@@ -37,6 +37,11 @@ def safe(text: str) -> str:
     """Return a message, which may quote the script, without what a terminal could act on, and not too long."""
     if len(text) > _LONGEST_MESSAGE:
         text = f"{text[: _LONGEST_MESSAGE // 2]} … {text[-_LONGEST_MESSAGE // 2 :]}"
+    return harmless(text)
+
+
+def harmless(text: str) -> str:
+    """Return a text, of one line, without what a terminal could act on."""
     if text.isascii() and text.isprintable():
         return text
     return "".join(UNSEEN if is_unsafe(one) and one not in "\u200c\u200d" else one for one in text)

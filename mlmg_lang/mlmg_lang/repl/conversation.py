@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from time import perf_counter
 
+from mlmg_lang.rendering.wording import safe
 from mlmg_lang.repl.desk import Desk
 from mlmg_lang.repl.dot_commands import find_dot_command
 from mlmg_lang.repl.reply import Refusal, Reply
@@ -49,4 +50,4 @@ def is_dotted(line: str) -> bool:
 
 
 def _refused(message: str) -> Reply:
-    return Reply(f"error: {message}\n", {"problem": message}, ok=False)
+    return Reply(f"error: {safe(message)}\n", {"problem": message}, ok=False)

@@ -12,6 +12,7 @@ from mlmg_lang.explaining.tree import table
 from mlmg_lang.rendering import render_full
 from mlmg_lang.rendering.colour import BLUE, Painter
 from mlmg_lang.rendering.json_list import entries_of
+from mlmg_lang.rendering.wording import safe
 from mlmg_lang.repl.desk import Desk
 from mlmg_lang.repl.reply import Reply
 from mlmg_lang.session.answer import Answer, Deed
@@ -44,10 +45,10 @@ class Telling:
         if answer.diagnostics:
             yield render_full(answer.diagnostics, answer.source, self.colour)
         if answer.problem is not None:
-            yield f"{Painter(self.colour)('error', _RED)}: {answer.problem}\n"
+            yield f"{Painter(self.colour)('error', _RED)}: {safe(answer.problem)}\n"
         for deed in answer.deeds[:MOST_DEEDS]:
             if len(answer.deeds) > 1:
-                yield f"  {Painter(self.colour)(deed.text, BLUE)}\n"
+                yield f"  {Painter(self.colour)(safe(deed.text), BLUE)}\n"
             yield from (f"  {line}\n" for line in self._deed(deed))
         if len(answer.deeds) > MOST_DEEDS:
             yield f"  ... and {len(answer.deeds) - MOST_DEEDS} more\n"

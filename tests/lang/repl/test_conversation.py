@@ -62,6 +62,33 @@ def test_of_a_long_loop_the_first_statements_are_told(say: Say) -> None:
     assert len(reply.data["statements"]) == 40
 
 
+EVIL = "\x1b[2J \x1b]0;so\x07 \x01\x1bc\x02 \x9b2J"
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        f"WALK {EVIL}",
+        f"IDLE # {EVIL}",
+        f'let "{EVIL}" = WALK',
+        f'"{EVIL}"; IDLE',
+        *(f".{one.name} {EVIL}" for one in DOT_COMMANDS),
+        f".load {EVIL}.ms",
+        f".save {EVIL}.ms",
+        f".{EVIL}",
+        f'.candidates "{EVIL}"',
+    ],
+)
+def test_nothing_that_is_written_reaches_the_terminal_as_more_than_text(
+    line: str, conversation: Conversation, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    conversation.say(f'let "{EVIL}" = WALK')
+    for said in (line, f'"{EVIL}" for 1 sec; IDLE # {EVIL}', ".timeline", ".undo", ".redo", ".seed 2", ".library"):
+        text = conversation.say(said).text
+        assert all(piece.isprintable() for piece in text.split("\n")), (said, text)
+
+
 # --- commands with a dot ---
 
 

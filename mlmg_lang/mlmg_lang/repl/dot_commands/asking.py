@@ -7,6 +7,7 @@ from typing import Any
 
 from mlmg_lang.explaining.tree import table
 from mlmg_lang.planning.names import Kind, Names
+from mlmg_lang.rendering.wording import harmless
 from mlmg_lang.repl.desk import Desk
 from mlmg_lang.repl.reply import Refusal, Reply
 from mlmg_lang.spelling import listed, nearest
@@ -126,7 +127,7 @@ def timeline(desk: Desk, _argument: str) -> Reply:
 
 
 def _lines(lines: Iterable[str]) -> str:
-    return "".join(f"{line}\n" for line in lines)
+    return "".join(f"{harmless(line)}\n" for line in lines)
 
 
 def _graph(desk: Desk, written: str) -> str:

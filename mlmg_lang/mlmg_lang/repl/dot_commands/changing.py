@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from mlmg_lang.rendering import render_full
+from mlmg_lang.rendering.wording import safe
 from mlmg_lang.repl.desk import Desk
 from mlmg_lang.repl.reply import Refusal, Reply
 from mlmg_lang.repl.telling import telling_of
@@ -31,15 +32,20 @@ def redo(desk: Desk, _argument: str) -> Reply:
 
 def _went(desk: Desk, what: str, text: str) -> Reply:
     seconds = desk.session.n_seconds
-    told = f"{what}: {' '.join(text.split())}\n  {seconds:.1f} s of motion\n"
+    told = f"{what}: {_line(text)}\n  {seconds:.1f} s of motion\n"
     return Reply(told, {"text": text, "seconds": round(seconds, 3)})
+
+
+def _line(text: str) -> str:
+    """Return an entry in one line."""
+    return safe(" ".join(text.split()))
 
 
 def start(desk: Desk, argument: str) -> Reply:
     """Play all that was entered from another start motion on."""
     if not argument:
         raise Refusal("name the motion of the whole body to start in, such as `.start Idle_01`")
-    return _again(desk, argument.strip('"'), desk.session.seed, f"starts in {argument}")
+    return _again(desk, argument.strip('"'), desk.session.seed, f"starts in {safe(argument)}")
 
 
 def seed(desk: Desk, argument: str) -> Reply:
@@ -94,7 +100,7 @@ def _told_of(replayed: Replayed, other: Library) -> Reply:
     lines = [f"{other.path.name}: {len(other.graphs)} graphs, {len(other.root.motions)} motions of the whole body"]
     if replayed.session.turns or replayed.lost:
         lines.append(f"  {replayed.session.n_seconds:.1f} s of motion, played anew")
-    lines += [f"  cannot be played on it: {' '.join(one.source.text.split())}" for one in replayed.lost]
+    lines += [f"  cannot be played on it: {_line(one.source.text)}" for one in replayed.lost]
     data = {
         "library": str(other.path),
         "seconds": round(replayed.session.n_seconds, 3),

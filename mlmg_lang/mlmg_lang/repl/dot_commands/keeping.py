@@ -7,6 +7,7 @@ import tempfile
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from mlmg_lang.rendering.wording import safe
 from mlmg_lang.repl.desk import Desk
 from mlmg_lang.repl.reply import Refusal, Reply
 from mlmg_lang.session.saving import SavedScript, script_from_session
@@ -26,12 +27,12 @@ def save(desk: Desk, argument: str) -> Reply:
     if path.suffix.lower() == ".bvh":
         performance = _perform(desk, script)
         _write(performance, path)
-        told = f"{path}: {performance.report['n_frames']} frames, {_seconds_of(performance):.1f} s\n"
+        told = f"{safe(str(path))}: {performance.report['n_frames']} frames, {_seconds_of(performance):.1f} s\n"
         data = {"file": str(path), "frames": performance.report["n_frames"]}
     else:
         with atomic_output(path) as temporary:
             temporary.write_text(_headed(script, desk.session, path), encoding="utf-8")
-        told = f"{path}: {_told(script)}\n"
+        told = f"{safe(str(path))}: {_told(script)}\n"
         data = {"file": str(path), "as_entered": script.as_entered}
     desk.saved = desk.session.turns
     return Reply(told, data)

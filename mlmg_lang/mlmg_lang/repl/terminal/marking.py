@@ -40,8 +40,10 @@ _CLASSES: Final[Mapping[Role, str]] = MappingProxyType(
         Role.WRONG: "class:wrong",
     }
 )
-MOST_CHECKED: Final = 4_000
+MOST_CHECKED: Final = 2_000
 """Longer texts, in code points, are coloured but not checked while they are typed."""
+MOST_COLOURED: Final = 20_000
+"""Still longer ones are shown as they are: all of this is done at each key."""
 _UNDERLINES: Final = {Severity.ERROR: " class:error", Severity.WARNING: " class:warning", Severity.HINT: " class:hint"}
 
 
@@ -64,6 +66,8 @@ class ScriptLexer(Lexer):
     def _lines(self, document: Document) -> list[StyleAndTextTuples]:
         if is_dotted(document.text):
             return [[("class:dot", line)] for line in document.lines]
+        if len(document.text) > MOST_COLOURED:
+            return [[("", line)] for line in document.lines]
         lines: list[StyleAndTextTuples] = [[]]
         for style, text in self._pieces(document):
             first, *others = text.split("\n")

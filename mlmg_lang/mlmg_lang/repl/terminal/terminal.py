@@ -18,6 +18,7 @@ from prompt_toolkit.styles import Style
 
 from mlmg_lang.ide.cursor import is_open
 from mlmg_lang.parsing.tokenize import tokenize
+from mlmg_lang.rendering.wording import safe
 from mlmg_lang.repl.conversation import Conversation, is_dotted
 from mlmg_lang.repl.desk import Desk
 from mlmg_lang.repl.reply import Reply
@@ -113,8 +114,10 @@ class TerminalFace:
         seconds = self._desk.session.n_seconds
         try:
             answer = question.prompt(f"{seconds:.1f} s of motion are not saved. Leave? [y/N] ")
-        except (EOFError, KeyboardInterrupt):
+        except EOFError:
             return True
+        except KeyboardInterrupt:
+            return False
         return answer.strip().lower() in ("y", "yes")
 
     def _made(self) -> PromptSession[str]:
@@ -149,7 +152,7 @@ class TerminalFace:
 def _greeting(desk: Desk) -> str:
     session = desk.session
     graphs = ", ".join(session.library.graphs)
-    return f"{library_name(session.library.path)}: {graphs}. `.help` tells what there is, Ctrl-D leaves.\n"
+    return f"{safe(library_name(session.library.path))}: {graphs}. `.help` tells what there is, Ctrl-D leaves.\n"
 
 
 def _history(desk: Desk) -> History:

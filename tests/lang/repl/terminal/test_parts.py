@@ -13,7 +13,7 @@ from mlmg_lang.repl.conversation import Conversation
 from mlmg_lang.repl.reply import Reply
 from mlmg_lang.repl.terminal.completing import ScriptCompleter
 from mlmg_lang.repl.terminal.history import history_path, library_name, uses_of
-from mlmg_lang.repl.terminal.marking import ScriptLexer
+from mlmg_lang.repl.terminal.marking import MOST_CHECKED, MOST_COLOURED, ScriptLexer
 from mlmg_lang.repl.terminal.toolbar import toolbar
 
 Say = Callable[..., Reply]
@@ -84,6 +84,24 @@ def test_what_is_wrong_is_underlined_while_it_is_typed_but_not_the_word_at_the_c
     assert ("class:name class:error", "WLAK") in pieces(conversation, "WLAK for 3 sec")
     assert ("class:name", "WLAK") in pieces(conversation, "WLAK")
     assert ("class:name class:error", "WLAK") in pieces(conversation, "WLAK; WALK", 10)
+
+
+def test_what_is_wrong_is_underlined_in_the_line_where_it_is(conversation: Conversation) -> None:
+    text = "repeat 2 {\n  WLAK for 1 sec\n}\nWALK"
+    lines = ScriptLexer(conversation.desk).lex_document(Document(text, len(text)))
+    marked = [[part for style, part, *_ in lines(n) if "class:error" in style] for n in range(4)]
+    assert marked == [[], ["WLAK"], [], []]
+
+
+@pytest.mark.parametrize(("n", "coloured"), [(MOST_CHECKED, True), (MOST_COLOURED, False)])
+def test_a_very_long_text_is_coloured_or_only_shown_but_not_checked(
+    n: int, coloured: bool, conversation: Conversation, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    text = "WLAK for 1 sec\n" * (n // 15 + 1)
+    monkeypatch.setattr(conversation.desk.session.__class__, "analyse", lambda *_: pytest.fail("checked"))
+    lines = ScriptLexer(conversation.desk).lex_document(Document(text, len(text)))
+    assert "".join(piece[1] for piece in lines(3)) == "WLAK for 1 sec"
+    assert (len(lines(3)) > 1) == coloured
 
 
 def test_the_toolbar_tells_library_motions_seconds_and_what_is_not_saved(conversation: Conversation, say: Say) -> None:

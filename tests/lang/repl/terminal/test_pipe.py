@@ -55,6 +55,10 @@ def test_leaving_with_something_unsaved_asks_and_stays_if_the_answer_is_no(
     assert typed(f".quit{ENTER}{ENTER}TALK{ENTER}.quit{ENTER}yes{ENTER}")[-1] == "TALK"
 
 
+def test_ctrl_c_at_the_question_stays(typed: Callable[[str], list[str]]) -> None:
+    assert typed(f"WALK{ENTER}{CTRL_D}{CTRL_C}IDLE{ENTER}{CTRL_D}{CTRL_D}") == ["WALK", "IDLE"]
+
+
 def test_an_open_block_goes_on_in_another_line(typed: Callable[[str], list[str]]) -> None:
     assert typed(f"repeat 2 {{{ENTER}WALK for 1 sec{ENTER}}}{ENTER}{CTRL_D}y{ENTER}") == [
         "repeat 2 {\nWALK for 1 sec\n}"
