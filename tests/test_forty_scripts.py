@@ -33,8 +33,8 @@ FOLDER = Path(__file__).parent / "scripts"
 SCRIPTS = sorted(path for path in FOLDER.rglob("*.ms") if path.parent.name != "used")
 CLAIM = re.compile(r"#= *(.*?) *$")
 FRAMES_A_SECOND = 30
-SMALL = 1e-6
-"""What a transition's cost is worth in frames: less than one, whatever the walk."""
+SMALL = 1e-2
+"""What a transition's cost is worth in frames: less than one, whatever the walk; so costs have ten decimals."""
 
 
 @dataclass(frozen=True)
@@ -226,7 +226,7 @@ class Teller:
         ways = list(zip(edges["dst_motion"], lasts, strict=True))
         found = {target: min(last for into, last in ways if into == graph.index[target]) for target in graph.motions}
         return {
-            target: (at + int(last), round(last % 1 / SMALL, 4)) for target, last in found.items() if np.isfinite(last)
+            target: (at + int(last), round(last % 1 / SMALL, 10)) for target, last in found.items() if np.isfinite(last)
         }
 
     def _fits(self, graph: str) -> dict[str, tuple[float, float]]:

@@ -15,7 +15,7 @@ import numpy as np
 
 from mlmg_runtime.arrays import BoolArray, FloatArray, IntArray
 
-# One transition: from A_i (its first blended frame) to B_j (its last), distance D and cost 1 - exp(-D / sigma).
+# One transition: from A_i (its first blended frame) to B_j (its last), distance D and its `transition_cost`.
 # A graph's transitions are sorted by source motion, source frame, target motion, target frame; searching relies on it.
 TRANSITION = np.dtype(
     [
@@ -28,6 +28,8 @@ TRANSITION = np.dtype(
     ]
 )
 UNREACHABLE = -1
+# So many times sigma, at most, the cost is by the formula; above, 1 - exp(-D / sigma) soon has no digits left.
+_FAR = 16.0
 # Windows up to five times as far apart as smooth ones (root mean square) make a blend that is seen, but no stumble: so
 # many times sigma, at most.
 USUAL_BRIDGE = 25.0
@@ -54,6 +56,23 @@ class Transition(NamedTuple):
     def arrival(self) -> Position:
         """Return the position after the transition's last blended frame."""
         return Position(self.dst_motion, self.dst_frame + 1)
+
+
+def transition_cost(distance: FloatArray, sigma: float) -> FloatArray:
+    """Return what transitions cost: 1 - exp(-D / sigma) [MLMG], from 0 up to 1, which no cost is.
+
+    Above 36 sigma that is 1 in floating point, and bridges between which a walk has to choose may be that far apart.
+    So from 16 sigma on it goes over, without a bend, into 1 - exp(-16) / (1 + D / sigma - 16), which goes on growing
+    with D. The two differ by less than 1.2e-7.
+
+    Parameters
+    ----------
+    distance : array. D of each, not below 0; in the unit of `sigma`.
+    """
+    times = distance / sigma
+    beyond = np.maximum(times - _FAR, 0.0)
+    costs = np.where(beyond > 0.0, 1.0 - np.exp(-_FAR) / (1.0 + beyond), -np.expm1(-times))
+    return np.minimum(costs, np.nextafter(1.0, 0.0))
 
 
 @dataclass(frozen=True)

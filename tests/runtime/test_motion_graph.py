@@ -1,9 +1,10 @@
 from bisect import bisect_left
 
+import numpy as np
 import pytest
 
 from mlmg_runtime.library import Library
-from mlmg_runtime.motion_graph import MotionGraph, Position, Transition
+from mlmg_runtime.motion_graph import MotionGraph, Position, Transition, transition_cost
 
 
 @pytest.fixture(params=["Full-Body", "Upper-Body", "Left-Arm", "Right-Arm"])
@@ -19,6 +20,23 @@ def test_a_transition_arrives_at_the_frame_after_its_last_blended_one() -> None:
 def test_transitions_as_plain_numbers_are_those_of_the_array(graph: MotionGraph) -> None:
     assert [tuple(edge) for edge in graph.edges] == [tuple(row) for row in graph.transitions.tolist()]
     assert all(type(edge.src_frame) is int and type(edge.cost) is float for edge in graph.edges)
+
+
+@pytest.mark.parametrize("sigma", [0.003, 1.0, 7e4])
+def test_a_cost_is_one_less_the_exponential_to_the_seventh_decimal(sigma: float) -> None:
+    times = np.linspace(0.0, 100.0, 20001)
+    costs, published = transition_cost(times * sigma, sigma), 1.0 - np.exp(-times)
+    np.testing.assert_allclose(costs[times <= 16], published[times <= 16], rtol=0, atol=1e-15)
+    np.testing.assert_allclose(costs, published, rtol=0, atol=1.2e-7)
+
+
+@pytest.mark.parametrize("sigma", [0.003, 1.0, 7e4])
+def test_of_two_bridges_the_farther_costs_more_and_none_costs_1(sigma: float) -> None:
+    times = np.concatenate((np.linspace(0.0, 40.0, 4001), np.linspace(40.1, 5000.0, 50000)))
+    costs = transition_cost(times * sigma, sigma)
+    assert (np.diff(costs) > 0.0).all()
+    assert costs[0] == 0.0
+    assert transition_cost(np.array([1e6, 1e300]) * sigma, sigma).max() < 1.0
 
 
 def test_motions_are_indexed_in_their_order(graph: MotionGraph) -> None:

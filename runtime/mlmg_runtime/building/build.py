@@ -19,7 +19,7 @@ from mlmg_runtime.building.connect import Edges, Positions, bridges
 from mlmg_runtime.building.hurry import hurry
 from mlmg_runtime.building.load_clips import Clips, load_clips
 from mlmg_runtime.built_library import BuiltLibrary, GraphReport
-from mlmg_runtime.motion_graph import TRANSITION, UNREACHABLE, MotionGraph
+from mlmg_runtime.motion_graph import TRANSITION, UNREACHABLE, MotionGraph, transition_cost
 from mlmg_runtime.point_cloud import PointCloud, point_cloud, window_distances
 from mlmg_runtime.skeleton import Skeleton, world_positions
 
@@ -201,7 +201,7 @@ def _packed(edges: Edges, sigma: float) -> np.ndarray[tuple[int], np.dtype[np.vo
     packed = np.zeros(len(edges.distance), dtype=TRANSITION)
     for name in ("src_motion", "src_frame", "dst_motion", "dst_frame", "distance"):
         packed[name] = getattr(edges, name)
-    packed["cost"] = -np.expm1(-edges.distance / sigma)
+    packed["cost"] = transition_cost(edges.distance, sigma)
     return np.sort(packed, order=["src_motion", "src_frame", "dst_motion", "dst_frame"])
 
 

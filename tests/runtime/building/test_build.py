@@ -348,6 +348,9 @@ def test_the_reference_library_hangs_together_on_both_graphs(reference_built: Bu
     ]
     for graph, report in zip(reference_built.graphs, reference_built.reports, strict=True):
         assert report.lost_motions == ()
+        assert graph.transitions["cost"].max() < 1.0
+        by_distance = np.sort(graph.transitions, order="distance")
+        assert (np.diff(by_distance["cost"])[np.diff(by_distance["distance"]) > 0.0] > 0.0).all()
         assert not (graph.hops == UNREACHABLE).any()
         assert len(graph.transitions) > 50
 

@@ -12,7 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mlmg_lang.front_end import analyse
-from mlmg_lang.perform import Rehearsal, ScriptError, rehearse
+from mlmg_lang.perform import Rehearsal, rehearse
 from mlmg_lang.planning import flow
 from mlmg_lang.planning.move import Move, move
 from mlmg_lang.planning.names import Kind, Names
@@ -20,6 +20,7 @@ from mlmg_lang.planning.resolved import Command, Layer, ResolvedPlan
 from mlmg_lang.planning.typed import Layer as Wanted
 from mlmg_lang.planning.typed import Named
 from mlmg_lang.source import Source, Span
+from mlmg_lang.staging import ScriptError
 from mlmg_runtime.library import Library
 
 MOTIONS = "abct"
