@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from functools import cache
+from collections.abc import Iterator, Mapping, Sequence
+from copy import copy
+from functools import lru_cache
 from pkgutil import get_data
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from lark import Lark, Token, Transformer
+    from lark.lexer import BasicLexer
 
 LINE = "line"
 SCRIPT = "script"
@@ -55,14 +58,27 @@ def make(transformer: Transformer[Token, Any] | None = None, starts: Sequence[st
 
 def scan(language: Lark, text: str) -> Iterator[Token]:
     """Yield every token of a text, comments and white space too. Whatever the text, this does not fail."""
-    return language.lex(text, dont_ignore=True)
+    from lark.lexer import LexerThread
+
+    lexing = LexerThread.from_text(_lexer(language), text)
+    return lexing.lex(None)  # type: ignore[no-untyped-call, no-any-return]
 
 
-@cache
-def reserved_words(language: Lark) -> dict[str, str]:
+@lru_cache(maxsize=2)
+def _lexer(language: Lark) -> BasicLexer:
+    """Return the lexer that `Lark.lex` would make anew for each text, which takes longer than to scan a line."""
+    from lark.lexer import BasicLexer
+
+    conf = copy(language.lexer_conf)
+    conf.ignore = ()
+    return BasicLexer(conf)
+
+
+@lru_cache(maxsize=2)
+def reserved_words(language: Lark) -> Mapping[str, str]:
     """Return the words that cannot be names, each with the terminal that it is."""
     terminals = ((terminal.pattern.value, terminal.name) for terminal in language.terminals)
-    return {text: name for text, name in terminals if text.isalpha()}
+    return MappingProxyType({text: name for text, name in terminals if text.isalpha()})
 
 
 def is_name(text: str) -> bool:

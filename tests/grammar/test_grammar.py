@@ -6,6 +6,8 @@ import lark
 import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
+from lark.common import LexerConf
+from lark.lexer import BasicLexer
 
 from mlmg_grammar import LINE, SCRIPT, grammar_text, is_name, make, reserved_words, scan
 from mlmg_lang.parsing.layout import Block, Line, lay_out
@@ -121,3 +123,18 @@ def test_the_reserved_words_are_those_of_the_language() -> None:
 
 def test_the_grammar_is_part_of_the_package() -> None:
     assert "script" in grammar_text()
+
+
+def test_all_texts_are_scanned_by_one_lexer(monkeypatch: pytest.MonkeyPatch) -> None:
+    """To make one takes longer than to scan a line, and texts in other scripts are scanned name by name."""
+    language = make()
+    made: list[object] = []
+
+    def lexer(conf: LexerConf) -> BasicLexer:
+        made.append(conf)
+        return BasicLexer(conf)
+
+    monkeypatch.setattr(lark.lexer, "BasicLexer", lexer)
+    texts = [[str(token) for token in scan(language, text)] for text in ("WALK  # slowly", "走路;", "10sec")]
+    assert texts == [["WALK", "  ", "# slowly"], ["走路", ";"], ["10", "sec"]]
+    assert len(made) == 1

@@ -6,6 +6,8 @@ from collections.abc import Mapping
 from types import MappingProxyType
 from typing import Final
 
+from mlmg_lang.spelling import is_slip_of
+
 _HERE: Final[Mapping[str, tuple[str, ...]]] = MappingProxyType(
     {
         "let": ("def", "define", "set", "var", "const", "function", "func", "fn", "fun", "macro"),
@@ -37,6 +39,12 @@ NUMBERS: Final[Mapping[str, str]] = MappingProxyType(
     | {"once": "1", "twice": "2", "thrice": "3", "hundred": "100"}
 )
 """Numbers in words."""
+
+
+def means_choose(text: str) -> bool:
+    """Return whether a word before `{` is `choose`, in another case, misspelt, or as other languages say it."""
+    low = text.lower()
+    return low == "choose" or other_word(low, "choose") or is_slip_of(low, "choose")
 
 
 def other_word(text: str, wanted: str) -> bool:

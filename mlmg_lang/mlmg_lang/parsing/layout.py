@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 from itertools import accumulate
 
 from mlmg_lang.diagnostics import Diagnostic, Fix
-from mlmg_lang.parsing.foreign import other_word
+from mlmg_lang.parsing.foreign import means_choose
 from mlmg_lang.parsing.tokens import CONTINUES, ENDS_PARENTHESES, OPENS_STATEMENT, Token
 from mlmg_lang.source import Span
 
@@ -87,7 +87,7 @@ class _Frame:
 
     @property
     def chooses(self) -> bool:
-        return bool(self.head) and (self.head[0].text.lower() == "choose" or other_word(self.head[0].text, "choose"))
+        return bool(self.head) and means_choose(self.head[0].text)
 
 
 class _Cutter:
@@ -129,8 +129,9 @@ class _Cutter:
         """End what is still open, and return all."""
         self._end_line()
         while len(self._frames) > 1:
-            brace = self._frames[-1].brace
-            self._say("this `{` is never closed", brace, "write `}` where its statements end")
+            frame = self._frames[-1]
+            if frame.head:  # else it is reported that the brace should not be there at all
+                self._say("this `{` is never closed", frame.brace, "write `}` where its statements end")
             self._end_block(self._end)
         return Layout(tuple(self._frames[0].branches[0]), tuple(self._diagnostics))
 

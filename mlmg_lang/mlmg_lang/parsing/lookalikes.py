@@ -31,7 +31,10 @@ _SIGNS: Final[Mapping[str, str]] = MappingProxyType(
 )
 """Signs of other keyboards, and those of the language that they look like, or stand for."""
 _ODD: Final = re.compile(f"[{''.join(map(re.escape, _SIGNS))}]")
+_SIGN_TABLE: Final = MappingProxyType(str.maketrans(dict(_SIGNS)))
 _WORD: Final = re.compile(r"\w+")
+_WIDE: Final = re.compile(r"[\uff21-\uff5a]|[^\D0-9]")
+"""A letter or digit that could be one of ASCII in other width, or of another script."""
 _OPENS: Final = ("//", "--", "/*")
 """What comments begin with in other languages; the last goes on to `*/`."""
 
@@ -102,14 +105,16 @@ def _narrow(text: str) -> str:
     """Return a name with what is no part of a name as the language writes it, character for character."""
     if is_name(text):
         return _narrow_word(text)
-    return _WORD.sub(lambda word: _narrow_word(word[0]), "".join(_SIGNS.get(letter, letter) for letter in text))
+    return _WORD.sub(lambda word: _narrow_word(word[0]), text.translate(_SIGN_TABLE))
 
 
 def _narrow_word(word: str) -> str:
     """Return a word in ASCII if it would be a number or a word of the language then."""
-    plain = "".join(_plain(letter) for letter in word)
+    if not _WIDE.search(word):
+        return word
+    plain = "".join(map(_plain, word))
     is_word = plain in UNITS or plain in reserved_words(motion_script())
-    return plain if plain != word and (is_word or plain[0].isdigit()) else word
+    return plain if is_word or plain[0].isdigit() else word
 
 
 def _plain(letter: str) -> str:

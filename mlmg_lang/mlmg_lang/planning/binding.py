@@ -184,11 +184,17 @@ def _qualified(node: syntax.Qualified, scope: Scope) -> Iterator[Unbound]:
 def _word_of_other_languages(node: syntax.Qualified, names: Names) -> Diagnostic | None:
     """Return what to say of a word that stands elsewhere for one of the language, where a graph is expected."""
     word, name = node.graph, node.motion.name
-    if names.graph(name.text) is not None and other_word(word.text, "end"):
+    if names.graph(name.text) is not None and _means_end(word, names):
         return _for_end(node)
     if name.quoted and other_word(word.text, "use"):
         return _for_use(word)
     return _comes_next(word) if word.text.lower() in NEXT else None
+
+
+def _means_end(word: syntax.Name, names: Names) -> bool:
+    if word.quoted or names.places(word.text):
+        return False
+    return other_word(word.text, "end") or is_slip_of(word.text, "end")
 
 
 def _graph_meant(name: syntax.Name, wrong: Sequence[Unbound], names: Names) -> str | None:

@@ -39,6 +39,7 @@ _RULES: Final[tuple[Callable[[Stuck], Mistake | None], ...]] = (
     heads.weight_not_whole,
     signs.name_from_digit,
     durations.word_before_number,
+    words.misspelt_before_number,
     durations.for_missing,
     durations.for_too_much,
     durations.number_in_words,

@@ -9,12 +9,15 @@ from mlmg_lang.parsing.foreign import MEANT, NUMBERS
 from mlmg_lang.parsing.mistakes.mistake import Mistake, across, mistake
 from mlmg_lang.parsing.tokens import NAMES, Token
 from mlmg_lang.source import Span
+from mlmg_lang.spelling import is_slip_of
 
 _HAVE: str = "only `repeat` and `choose` are followed by `{`"
 
 
 def other_head(head: Sequence[Token], brace: Span) -> Mistake | None:
     """`loop 3 {`, `3 times {`, `random {`, `function GREET() {`; None where nothing of the kind stands there."""
+    if len(head) == 1 and head[0].type == "NAME" and is_slip_of(head[0].text, "choose"):
+        return _misspelt_choose(head[0])
     words = {word for token in head if token.type == "NAME" for word in MEANT.get(token.text.lower(), ())}
     if head[0].type == "LET" or "let" in words:
         name = next((token.text for token in head[1:] if token.type in NAMES), "NAME")
@@ -31,6 +34,12 @@ def other_head(head: Sequence[Token], brace: Span) -> Mistake | None:
         return mistake("MS013", _HAVE, across(head[0], head[-1]), "write how often, as in `repeat 3 { ... }`")
     span = across(head[0], head[-1])
     return _instead(head, f"repeat {count}", Token("REPEAT", "repeat", span), Token("INTEGER", count, span))
+
+
+def _misspelt_choose(word: Token) -> Mistake:
+    message, fix = f"`{word.text}` is not a word of the language", Fix(word.span, "choose", safe=False)
+    meant = (Token("CHOOSE", "choose", word.span),)
+    return mistake("MS019", message, word.span, "did you mean `choose`?", fix, meant=meant)
 
 
 def _instead(head: Sequence[Token], right: str, *meant: Token) -> Mistake:

@@ -11,6 +11,7 @@ from mlmg_lang.parsing.line_parser import Stuck
 from mlmg_lang.parsing.mistakes.mistake import Mistake, across, found, gets_further, mistake, replaced
 from mlmg_lang.parsing.tokens import NAMES, NUMBERS, Token
 from mlmg_lang.source import Span
+from mlmg_lang.spelling import is_slip_of
 
 
 def graph_missing(stuck: Stuck) -> Mistake | None:
@@ -37,7 +38,7 @@ def path_missing(stuck: Stuck) -> Mistake | None:
 
 def definition(stuck: Stuck) -> Mistake | None:
     """`def GREET = WALK`, `GREET = WALK`, `let GREET := WALK`, `let GREET x = x`: what stands before what it means."""
-    word = stuck.tokens[0] if _defines(stuck.tokens[0]) else None
+    word = stuck.tokens[0] if _defines(stuck.tokens) else None
     at = _equals(stuck.tokens, word is not None)
     if at is None or at == (0 if word is None else 1):
         return None
@@ -56,8 +57,13 @@ def definition(stuck: Stuck) -> Mistake | None:
                                                         stuck.tokens[after - 1]))  # fmt: skip
 
 
-def _defines(token: Token) -> bool:
-    return token.type == "LET" or (token.type == "NAME" and other_word(token.text, "let"))
+def _defines(tokens: Sequence[Token]) -> bool:
+    """Return whether the first word is `let`, or that of another language, or a slip of it before `NAME =`."""
+    first = tokens[0]
+    if first.type != "NAME":
+        return first.type == "LET"
+    is_head = [token.type for token in tokens[1:3]] in (["NAME", "EQUALS"], ["NAME", "LEFT"])
+    return other_word(first.text, "let") or (is_head and is_slip_of(first.text, "let"))
 
 
 def _equals(tokens: Sequence[Token], is_told: bool) -> int | None:

@@ -83,6 +83,11 @@ def misspelt_word(stuck: Stuck) -> Mistake | None:
     return None
 
 
+def misspelt_before_number(stuck: Stuck) -> Mistake | None:
+    """`WALK fro 10 sec`, `wiat 2 sec`: else the word would be a name, behind which `for` is missing."""
+    return misspelt_word(stuck) if stuck.type(0) in NUMBERS else None
+
+
 def comes_next(stuck: Stuck) -> Mistake | None:
     """`WALK for 3 sec then IDLE`, `WALK, then IDLE`."""
     near = range(max(stuck.at - 1, 0), min(stuck.at + 2, len(stuck.tokens)))
