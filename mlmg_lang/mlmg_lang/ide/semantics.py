@@ -1,15 +1,16 @@
 """An analysis -> what each token of its text is to a reader, by what the names mean in the library.
 
 The grammar's roles say what a name is for; the library and the script's definitions, what it means. Both are found
-piece by piece, and kept for the next text: places are counted from where a piece begins.
+piece by piece, by its text alone, and kept for the next text: places are counted from where a piece begins.
 """
 
 from __future__ import annotations
 
 from bisect import bisect_right
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import StrEnum
+from itertools import pairwise
 from types import MappingProxyType
 from typing import Final
 
@@ -62,14 +63,14 @@ class Mark:
 class Painted:
     """The marks of a piece, places counted from its beginning; `names`: what was looked up for them, in NFC."""
 
-    piece: Piece
+    text: str
     marks: tuple[Mark, ...]
     names: frozenset[str]
 
 
 @dataclass(frozen=True, slots=True)
 class Painting:
-    """The marks of a text, in pieces: those that an edit leaves alone are the same objects in the next.
+    """The marks of a text, in pieces: pieces of one text, here or before an edit, are one object.
 
     Attributes
     ----------
@@ -104,21 +105,35 @@ def paint(analysis: Analysis, previous: Painting | None = None) -> Painting:
     made = analysis.made
     defined = made.gathered.definitions
     against = _Meanings(analysis.question.names, frozenset(defined.lets), defined.complete)
+    if previous is not None and previous._against == against:
+        against = previous._against
     kept = _kept(previous, against)
-    parts = tuple([kept.get(id(piece)) or _painted(piece, against) for piece in made.pieces])
-    return Painting(parts, made.places.starts, against)
+    parts = []
+    for piece, (start, end) in zip(made.pieces, pairwise(made.places.starts), strict=True):
+        text = made.source.text[start:end]
+        if text not in kept:
+            kept[text] = _painted(text, piece, against)
+        parts.append(kept[text])
+    return Painting(tuple(parts), made.places.starts, against)
 
 
 @dataclass(frozen=True, slots=True)
 class _Meanings:
-    """What decides what names mean."""
+    """What decides what names mean; what was asked is kept."""
 
     names: Names | None
     lets: frozenset[str]
     complete: bool
+    _known: dict[tuple[str, bool, Role], tuple[Kind, bool]] = field(default_factory=dict, compare=False)
 
     def of(self, name: Name, role: Role) -> tuple[Kind, bool]:
         """Return what a name is, and whether it is unknown."""
+        key = (name.text, name.quoted, role)
+        if key not in self._known:
+            self._known[key] = self._of(name, role)
+        return self._known[key]
+
+    def _of(self, name: Name, role: Role) -> tuple[Kind, bool]:
         if role is not Role.GRAPH and normal(name.text) in self.lets:
             return Kind.DEFINITION, False
         if self.names is None:
@@ -161,18 +176,18 @@ _KINDS: Final[Mapping[Role, Kind]] = MappingProxyType(
 """What a token is that is no name."""
 
 
-def _kept(previous: Painting | None, against: _Meanings) -> dict[int, Painted]:
-    """Return, by the identity of its piece, what is still right of an earlier painting."""
+def _kept(previous: Painting | None, against: _Meanings) -> dict[str, Painted]:
+    """Return, by the text of its piece, what is still right of an earlier painting."""
     if previous is None:
         return {}
     before = previous._against
     if before.names is not against.names or before.complete != against.complete:
         return {}
     changed = before.lets ^ against.lets
-    return {id(part.piece): part for part in previous.parts if changed.isdisjoint(part.names)}
+    return {part.text: part for part in previous.parts if changed.isdisjoint(part.names)}
 
 
-def _painted(piece: Piece, against: _Meanings) -> Painted:
+def _painted(text: str, piece: Piece, against: _Meanings) -> Painted:
     marks: list[Mark] = []
     names: set[str] = set()
     parameters = _parameters(piece.tokens)
@@ -190,7 +205,7 @@ def _painted(piece: Piece, against: _Meanings) -> Painted:
         elif role in _KINDS:
             marks.append(Mark(span, _KINDS[role]))
         before = token.type
-    return Painted(piece, tuple(marks), frozenset(names))
+    return Painted(text, tuple(marks), frozenset(names))
 
 
 def _named(name: Name, role: Role, span: Span, parameters: Mapping[str, int], against: _Meanings) -> Mark:

@@ -1,0 +1,55 @@
+"""What of a text can be folded away: `ide.folding`."""
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from mlmg_lang.front_end import analyse, analyse_again
+from mlmg_lang.ide.folding import folds
+from mlmg_lang.source import Source
+
+TEXTS = st.text(alphabet='repeat 2choose{}|()#WALKwith\n;"\r', max_size=80)
+
+
+def folded(text: str) -> list[tuple[int, int, str]]:
+    """Return first line, last line and kind of each fold."""
+    source = Source(text)
+    places = [(source.location(fold.span), fold.kind) for fold in folds(analyse(source))]
+    return [(first, last, kind.value) for (first, _, last, _), kind in places]
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("WALK\nIDLE", []),
+        ("repeat 2 { IDLE }", []),
+        ("repeat 2 {\nIDLE\n}\n", [(1, 3, "block")]),
+        ("repeat 2 {\nrepeat 3 {\nIDLE\n}\n}", [(1, 5, "block"), (2, 4, "block")]),
+        ("choose {\nIDLE\nWALK\n| TALK\n}", [(1, 5, "block"), (2, 3, "branch")]),
+        ("IDLE\nWALK\n  with Upper-Body TALK\n  for 2 sec\n", [(2, 4, "command")]),
+        ("let G = (\nWALK\nor (IDLE or\nTALK)\n)", [(1, 5, "command"), (3, 4, "parentheses")]),
+        ("# a\n# b\n# c\nWALK", [(1, 3, "comment")]),
+        ("# a\n\n# b\nWALK", []),
+        ("WALK # a\n# b", []),
+        ("WALK # a\n# b\n# c", [(2, 3, "comment")]),
+        ("repeat 2 {\n  # a\n  # b\n  IDLE", [(1, 4, "block"), (2, 3, "comment")]),
+        ("(\nWALK", []),
+        ("# a\r\n# b\r\n", [(1, 2, "comment")]),
+    ],
+)
+def test_blocks_parentheses_comments_and_long_commands_fold(text: str, expected: list[tuple[int, int, str]]) -> None:
+    assert folded(text) == expected
+
+
+@given(TEXTS)
+def test_of_any_text_each_fold_is_on_several_lines_and_none_is_given_twice(text: str) -> None:
+    found = [(first, last) for first, last, _ in folded(text)]
+    assert all(first < last for first, last in found)
+    assert len(set(found)) == len(found)
+    assert sorted(found, key=lambda one: one[0]) == found
+
+
+@given(TEXTS, TEXTS, TEXTS)
+def test_after_an_edit_folds_are_those_of_the_text_afresh(before: str, new: str, after: str) -> None:
+    edited = analyse_again(analyse(Source(f"{before}\n{after}")), Source(f"{before}\n{new}\n{after}"))
+    assert folds(edited) == folds(analyse(edited.source))
