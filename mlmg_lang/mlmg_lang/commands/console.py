@@ -98,14 +98,14 @@ def frame_rate(text: str) -> float:
     Raises
     ------
     argparse.ArgumentTypeError
-        If it is no sensible number.
+        If it is no number from 1 to 10,000, as clips may have.
     """
     try:
         rate = float(text)
     except ValueError:
         rate = 0.0
-    if not 0 < rate <= 10000:
-        raise argparse.ArgumentTypeError(f"expected a number of frames a second, found {text!r}")
+    if not 1 <= rate <= 10000:
+        raise argparse.ArgumentTypeError(f"expected a number of frames a second from 1 to 10000, found {text!r}")
     return rate
 
 

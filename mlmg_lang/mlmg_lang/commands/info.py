@@ -16,6 +16,7 @@ from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING, Any
 
 from mlmg_lang.commands.console import DONE
+from mlmg_lang.parsing.lexical import script_name
 
 if TYPE_CHECKING:
     from mlmg_runtime.library import Library
@@ -88,7 +89,12 @@ def _motions(library: Library, graph: str) -> Iterator[Iterable[object]]:
     yield "motion", "n_frames", "seconds", "tags"
     for motion in library.motions(graph):
         n_frames = library.n_frames(motion)
-        yield motion, n_frames, round(n_frames / library.frame_rate, 3), " ".join(library.tags(graph, motion))
+        yield (
+            motion,
+            n_frames,
+            round(n_frames / library.frame_rate, 3),
+            " ".join(map(script_name, library.tags(graph, motion))),
+        )
 
 
 def _description(library: Library) -> dict[str, Any]:

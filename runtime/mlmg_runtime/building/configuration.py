@@ -17,6 +17,7 @@ from mlmg_runtime.errors import ConfigurationError
 _LINE_BREAK = re.compile("[\r\n]")
 
 DEFAULT_WINDOW = 20
+_BELOW = "sub"
 METRICS = ("point-cloud",)
 BLENDS = ("c1", "linear")
 
@@ -135,7 +136,7 @@ class _Reader:
             path=self.file.path,
             clips=tuple(clip for clip in clips if clip.name in motions),
             left_out=tuple(name for name in names if name not in motions),
-            frame_rate=self._positive(library, ("library", "frame_rate")),
+            frame_rate=self._rate(library, ("library", "frame_rate")),
             up=self._choice(library, ("library", "up"), ("y", "z"), "y"),
             start=None if start is None else _nfc(start),
             graphs=graphs,
@@ -239,6 +240,9 @@ class _Reader:
         name = self._text(table, (*at, "name"), None)
         if not name:
             self._fail((*at, "name"), "a graph must have a name")
+        if name.casefold() == _BELOW:
+            message = f"no graph can be named `{name}`: in a script that word stands for the graph below another"
+            self._fail((*at, "name"), message)
         window = table.get("window", DEFAULT_WINDOW)
         if type(window) is not int or not 2 <= window <= 1000:
             self._fail((*at, "window"), f"window must be a number of frames from 2 to 1000, found {window!r}")
@@ -423,10 +427,10 @@ class _Reader:
             self._fail(at, f"{at[-1]} must be one of {', '.join(choices)}, found {value!r}")
         return str(value)
 
-    def _positive(self, table: dict[str, Any], at: KeyPath) -> float | None:
+    def _rate(self, table: dict[str, Any], at: KeyPath) -> float | None:
         value = table.get(str(at[-1]))
-        if value is not None and not (_is_number(value) and 0 < value <= 10000):
-            self._fail(at, f"{at[-1]} must be a number above 0, at most 10000, found {value!r}")
+        if value is not None and not (_is_number(value) and 1 <= value <= 10000):
+            self._fail(at, f"{at[-1]} must be a number from 1 to 10000, found {value!r}")
         return None if value is None else float(value)
 
     def _fail(self, at: KeyPath, message: str) -> NoReturn:

@@ -7,7 +7,7 @@ import sys
 
 import pytest
 
-from mlmg_lang.commands import mlmg
+from mlmg_lang.commands import mlmg, mlmgc
 from mlmg_lang.commands.console import ProgressLine
 
 
@@ -149,6 +149,50 @@ def test_tables_are_csv_on_standard_output(built, capsys, option, columns):
     assert header == columns
     assert rows
     assert all(len(row) == len(columns) for row in rows)
+
+
+RESERVED = (
+    ('name = "Upper-Body"', 'name = "for"'),
+    ("[tags.Upper-Body]", '[tags."for"]'),
+    ('Step = ["SWING"]\nReach = ["TALK"]', '"with" = ["end", "a \\"b\\" c", "SWING"]\nReach = ["TALK"]'),
+    ('Step = ["WALK"]', '"with" = ["once"]'),
+)
+
+
+@pytest.fixture
+def reserved(folder):
+    """Return the folder with a library whose graph, motion and tags are words of the language."""
+    (folder / "Step.bvh").rename(folder / "with.bvh")
+    text = (folder / "library.toml").read_text(encoding="utf-8")
+    for usual, word in RESERVED:
+        assert usual in text
+        text = text.replace(usual, word)
+    (folder / "library.toml").write_text(text, encoding="utf-8")
+    assert mlmg.main(["build", "library.toml", "-o", "my.mlmg"]) == 0
+    return folder
+
+
+def test_tags_are_told_as_a_script_writes_them(reserved, capsys):
+    capsys.readouterr()
+    assert mlmg.main(["info", "my.mlmg", "--motions", "for"]) == 0
+    rows = list(csv.reader(io.StringIO(capsys.readouterr().out)))
+    assert rows[1:] == [["with", "90", "3.0", '"end" "a \\"b\\" c" SWING'], ["Reach", "90", "3.0", "TALK"]]
+
+
+def test_words_of_the_language_are_names_in_quotes(reserved, capsys):
+    script = '"once" for 1 sec\n"for" TALK for 1 sec\nend "for"\n"for" "a \\"b\\" c" for 1 sec\n"with"\n'
+    (reserved / "words.ms").write_text(script, encoding="utf-8")
+    library = ["--library", "my.mlmg"]
+    capsys.readouterr()
+    assert mlmg.main(["check", "words.ms", "--format", "concise", *library]) == 0
+    assert capsys.readouterr().out == ""
+    assert mlmg.main(["fmt", "--check", "words.ms"]) == 0
+    assert mlmg.main(["explain", "words.ms", "--analyze", *library]) == 0
+    assert mlmgc.main(["words.ms", *library, "-o", "words.bvh", "--report", "words.json"]) == 0
+    commands = json.loads((reserved / "words.json").read_text())["commands"]
+    assert [one["motions"] for one in commands][-1] == {"Full-Body": "with"}
+    for option in ("--transitions", "--oms"):
+        assert mlmg.main(["info", "my.mlmg", option, "for"]) == 0
 
 
 def test_a_graph_that_is_not_there_is_named_with_those_that_are(built, capsys):

@@ -202,11 +202,12 @@ def test_an_output_that_cannot_be_written_is_told_before_anything_is(scene, caps
     assert not (scene / "out.bvh").exists()
 
 
-def test_a_rate_that_is_no_number_is_wrong_usage(scene, capsys):
+@pytest.mark.parametrize("rate", ["abc", "1e-9", "0.99", "10001", "nan", "inf"])
+def test_a_rate_that_no_motion_has_is_wrong_usage(scene, capsys, rate):
     with pytest.raises(SystemExit) as left:
-        compiled("-o", "out.bvh", "--fps", "abc")
+        compiled("-o", "out.bvh", "--fps", rate)
     assert left.value.code == 2
-    assert "expected a number of frames a second, found 'abc'" in capsys.readouterr().err
+    assert f"expected a number of frames a second from 1 to 10000, found '{rate}'" in capsys.readouterr().err
 
 
 def test_a_cache_that_cannot_be_used_is_one_line_that_names_it_and_its_variable(folder, monkeypatch, capsys):

@@ -74,9 +74,18 @@ def number_of_other_languages(stuck: Stuck) -> Mistake | None:
     right = spelled(float(written))
     if float(right) == 0 or len(right) > 12:
         return mistake("MS017", f"`{written}` is not a number", span, "write it in digits, as in `1000` or `0.25`")
-    meant = replaced(stuck, stuck.at - 1, _number(right, span), n=2)
+    meant = _with_harmless(stuck, right, span)
     return mistake("MS017", f"`{written}` is not a number in Motion Script", span, f"write `{right}`",
                    Fix(span, right, safe=True), meant=meant)  # fmt: skip
+
+
+def _with_harmless(stuck: Stuck, right: str, span: Span) -> tuple[Token, ...]:
+    """Return the line with another number, if that may be far too large too: one message about it is enough."""
+    unit = stuck.token(1)
+    if unit is not None and unit.text.lower() in UNITS:
+        return replaced(stuck, stuck.at - 1, *_seconds("1", span), n=3)
+    is_count = stuck.tokens[0].type == "REPEAT"
+    return replaced(stuck, stuck.at - 1, _number("1" if is_count else right, span), n=2)
 
 
 def clock_time(stuck: Stuck) -> Mistake | None:
