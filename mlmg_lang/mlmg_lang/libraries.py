@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Callable
 from pathlib import Path
-from typing import TypeAlias
+from typing import Final, TypeAlias
 
 SETTINGS = "mlmg.toml"
 VARIABLE = "MLMG_LIBRARY"
 DEMO = "demo"
 """What the demo library is called where a library is named, unless there is a file of that name."""
+
+_DEMO_FILE: Final = re.compile(r"demo-[0-9a-f]{12}\.mlmg")
 
 Progress: TypeAlias = Callable[[str, int, int], None]
 
@@ -45,6 +48,11 @@ def find_library(
         if settings.is_file():
             return _library_of(settings, progress)
     return None
+
+
+def is_demo(library: Path) -> bool:
+    """Return whether a library is the demo library, by what its file is called."""
+    return _DEMO_FILE.fullmatch(library.name) is not None
 
 
 def _named(name: str | Path, folder: Path, progress: Progress) -> Path:

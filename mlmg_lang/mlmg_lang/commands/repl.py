@@ -61,7 +61,8 @@ def _conversation(arguments: argparse.Namespace) -> Conversation:
         session = Session(library, arguments.start, arguments.seed, used_files("-", arguments.allow_use))
     except ValueError as error:
         raise UsageError(str(error)) from None
-    return Conversation(Desk(session, _show, wants_colour(sys.stdout)))
+    allowed = tuple(map(Path, arguments.allow_use))
+    return Conversation(Desk(session, _show, wants_colour(sys.stdout), allowed=allowed))
 
 
 def _show(motion: Path, report: Path) -> str:

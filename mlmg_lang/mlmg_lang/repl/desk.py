@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TypeAlias
 
+from mlmg_lang.script_files import used_files
 from mlmg_lang.session.session import Session, Turn
 
 Show: TypeAlias = Callable[[Path, Path], str]
@@ -41,6 +42,7 @@ class Desk:
     show : what opens the player.
     colour : whether replies are coloured.
     saved : the entries that a file holds.
+    allowed : folders from which scripts may use files, besides the current one.
     """
 
     session: Session
@@ -48,6 +50,7 @@ class Desk:
     colour: bool = False
     settings: Settings = field(default_factory=Settings)
     saved: tuple[Turn, ...] = ()
+    allowed: tuple[Path, ...] = ()
     _library_file: tuple[int, int, int] | None = field(default=None, init=False)
 
     def __post_init__(self) -> None:
@@ -68,6 +71,11 @@ class Desk:
     def note_library(self) -> None:
         """Take the library's file as it is now for the one that is played on."""
         self._library_file = _state_of(self.session.library.path)
+
+    def allow_files_of(self, script: Path) -> None:
+        """Let what is loaded from a script use the files that the script itself may use."""
+        self.allowed = tuple(dict.fromkeys((*self.allowed, *used_files(script).folders)))
+        self.session.files = used_files("-", self.allowed)
 
     def replace_session(self, session: Session) -> None:
         """Go on with another session."""

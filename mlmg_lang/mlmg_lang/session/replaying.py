@@ -27,6 +27,6 @@ def replay(session: Session, library: Library, start: str | None, seed: int) -> 
         If the library has no such start motion.
     """
     fresh = Session(library, start, seed, session.files)
-    answers = [fresh.enter(turn.text) for turn in session.turns]
+    answers = [fresh.enter(turn.text, turn.name) for turn in session.turns]
     lost = [one for one in answers if one.problem is not None or has_errors(one.diagnostics)]
     return Replayed(fresh, tuple(lost))

@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from mlmg_lang.definitions.gather import Files
 from mlmg_lang.front_end import Question, analyse_for
 from mlmg_lang.parsing.amounts import spelled
 from mlmg_lang.parsing.lexical import script_name
@@ -34,24 +35,30 @@ class SavedScript:
     as_entered: bool
 
 
-def script_from_session(session: Session) -> SavedScript | None:
-    """Return the script of what has been played, its last motion to the end; None if nothing has been."""
+def script_from_session(session: Session, name: str = "<session>", files: Files | None = None) -> SavedScript | None:
+    """Return the script of what has been played, its last motion to the end; None if nothing has been.
+
+    Parameters
+    ----------
+    name : of the file that it is to be written to. files : where those are found from there that it uses; if not
+        given, where the session finds them.
+    """
     if session.n_seconds == 0.0 and not any(turn.deeds for turn in session.turns):
         return None
     wanted = session.stage.finish()
     entered = "\n".join(turn.text.rstrip() for turn in session.turns)
     played = "\n".join(line for turn in session.turns for line in map(_line, turn.done))
     for text, as_entered in ((entered, True), (played, False)):
-        plan = _plan(text, session, wanted)
+        plan = _plan(Source(text, name), files or session.files, session, wanted)
         if plan is not None:
             return SavedScript(text + "\n", plan, as_entered)
     raise AssertionError("what was played command by command can be played again")
 
 
-def _plan(text: str, session: Session, wanted: Timeline) -> ResolvedPlan | None:
+def _plan(source: Source, files: Files, session: Session, wanted: Timeline) -> ResolvedPlan | None:
     """Return the plan of a script; None if it does not play what is wanted."""
-    question = Question(session.library, session.names, session.starts_in, session.files)
-    plan = analyse_for(Source(text, "<session>"), question).resolved
+    question = Question(session.library, session.names, session.starts_in, files)
+    plan = analyse_for(source, question).resolved
     if plan is None:
         return None
     stage = begin(session.library, plan.start, session.seed)

@@ -24,6 +24,7 @@ from mlmg_lang.source import Source
 from mlmg_lang.staging import Executed, ScriptError, Stage, begin
 from mlmg_runtime.library import Library
 
+ENTRY: Final = "<entry>"
 EARLIER: Final = "what was defined before"
 _OF_WHOLE_SCRIPTS: Final = frozenset({"MS047", "MS054"})
 """What is said of scripts that are finished: in a conversation, more may follow."""
@@ -36,16 +37,19 @@ class Turn:
     Attributes
     ----------
     text : as it was entered.
+    name : of the file that it was read from; `ENTRY` if it was typed.
     done, deeds : the statements as they were executed, and what is to be told of them.
     stage : the character after it; None as long as nothing has been played. It is not to be changed.
-    defined : the definitions of this entry and all before it, as they were entered.
+    defined : the definitions of this entry and all before it, as they were entered, by the file that they are from:
+        a file that one of them uses is found from there.
     """
 
     text: str
+    name: str
     done: tuple[Executed, ...]
     deeds: tuple[Deed, ...]
     stage: Stage | None
-    defined: str
+    defined: tuple[Source, ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -93,19 +97,22 @@ class Session:
 
     # --- asking ---
 
-    def analyse(self, text: str) -> Analysis:
+    def analyse(self, text: str, name: str = ENTRY) -> Analysis:
         """Return what an entry would say now, and what is wrong with it, without playing it."""
-        defined = self._turns[-1].defined if self._turns else ""
-        source = Source(text, "<entry>", (Source(defined, EARLIER),) if defined else ())
+        source = Source(text, name, self._defined)
         question = Question(self.library, self.names, self.start, self.files, self.state)
         return _of_entry(analyse_for(source, question), self._continued(text))
 
-    def enter(self, text: str) -> Answer:
+    def enter(self, text: str, name: str = ENTRY) -> Answer:
         """Play an entry on from where the character is, and say what came of it.
 
         If it is interrupted or cannot be played, all is as before it.
+
+        Parameters
+        ----------
+        name : of the file that the text was read from; files that it uses are found from there.
         """
-        analysis = self.analyse(text)
+        analysis = self.analyse(text, name)
         plan = analysis.resolved
         if plan is None or not any(True for _ in analysis.script.items):
             return Answer(analysis.source, analysis.diagnostics)
@@ -115,7 +122,7 @@ class Session:
         except ScriptError as error:
             return Answer(analysis.source, analysis.diagnostics, problem=str(error))
         told = () if stage is None else deeds(done, plan, self._stage, stage)
-        self._turns.append(Turn(text, done, told, stage, self._defined_by(analysis)))
+        self._turns.append(Turn(text, name, done, told, stage, self._defined_by(analysis)))
         self._undone.clear()
         return Answer(analysis.source, analysis.diagnostics, told, self.n_seconds)
 
@@ -176,6 +183,13 @@ class Session:
         """Return the motion that the character started in, or would if nothing is entered that names another."""
         return self.stage.performer.start
 
+    @property
+    def files_read(self) -> tuple[str, ...]:
+        """Return the names of the files that entries were read from, and of those that they use."""
+        loaded = [turn.name for turn in self._turns if turn.name != ENTRY]
+        used = [one.name for one in self.analyse("").source.used if one.name != EARLIER]
+        return tuple(dict.fromkeys((*loaded, *used)))
+
     # --- small questions ---
 
     @property
@@ -185,13 +199,21 @@ class Session:
     def _start_without_command(self) -> str:
         return start_of((), self.names, self.library, self.start)[0]
 
-    def _defined_by(self, analysis: Analysis) -> str:
+    @property
+    def _defined(self) -> tuple[Source, ...]:
+        return self._turns[-1].defined if self._turns else ()
+
+    def _defined_by(self, analysis: Analysis) -> tuple[Source, ...]:
         """Return all definitions so far, with those of an entry."""
         own = [
             analysis.source.slice(one.span) for one in analysis.script.items if isinstance(one, syntax.Let | syntax.Use)
         ]
-        before = [self._turns[-1].defined] if self._turns and self._turns[-1].defined else []
-        return "\n".join([*before, *own])
+        if not own:
+            return self._defined
+        name = EARLIER if analysis.source.name == ENTRY else analysis.source.name
+        texts = {one.name: one.text for one in self._defined}
+        texts[name] = "\n".join([*([texts[name]] if name in texts else []), *own])
+        return tuple(Source(text, name) for name, text in texts.items())
 
     def _continued(self, text: str) -> str | None:
         """Return the command that an entry would have to go on with, if it has been played already."""

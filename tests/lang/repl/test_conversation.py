@@ -1,13 +1,16 @@
 """Each line has one reply: what was played, what is wrong, or what a command with a dot tells."""
 
 import json
+import shlex
 import shutil
 from collections.abc import Callable
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import mlmg_lang
+from mlmg_lang.commands import mlmgc
 from mlmg_lang.repl.conversation import Conversation
 from mlmg_lang.repl.dot_commands import DOT_COMMANDS
 from mlmg_lang.repl.reply import Reply
@@ -207,6 +210,77 @@ def test_a_script_is_loaded_as_one_entry(say: Say, conversation: Conversation, t
     assert len(conversation.desk.session.turns) == 1
     (tmp_path / "b.ms").write_bytes(b"\xff")
     assert "UTF-8" in say(f".load {tmp_path / 'b.ms'}").text
+
+
+@pytest.fixture
+def scripts(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """Return a folder with a script that uses a file beside it, next to the current folder."""
+    folder = tmp_path / "my scripts"
+    folder.mkdir()
+    (folder / "lib.ms").write_text("let A = WALK\n", encoding="utf-8")
+    (folder / "a.ms").write_text('use "lib.ms"\nA for 1 sec\n', encoding="utf-8")
+    (tmp_path / "here").mkdir()
+    monkeypatch.chdir(tmp_path / "here")
+    return folder
+
+
+def test_a_script_that_is_loaded_finds_what_it_uses_from_its_own_folder(say: Say, scripts: Path) -> None:
+    assert say('.load "../my scripts/a.ms"').ok
+    assert say("let B = A", "B for 1 sec").ok
+    assert len(say(".seed 4", ".timeline").data["timeline"]) == 2
+    (scripts / "b.ms").write_text("let C = NOBODY\n", encoding="utf-8")
+    assert "--> ../my scripts/b.ms:1:9\n" in say(".load ../my scripts/b.ms").text
+
+
+@pytest.fixture
+def own_library(conversation: Conversation, scripts: Path, demo_library: Library) -> Path:
+    """Return the library that the conversation is about: a file in the current folder."""
+    shutil.copy(demo_library.path, "my.mlmg")
+    conversation.desk.replace_session(Session(open_library(Path("my.mlmg"))))
+    return Path("my.mlmg")
+
+
+@pytest.mark.usefixtures("own_library")
+def test_a_script_is_saved_so_that_its_first_line_plays_it_where_it_is_saved(
+    say: Say, scripts: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    say(".load ../my scripts/a.ms", ".start Walk_02", "IDLE", ".set blend linear", ".set fps 24", ".set feet off")
+    frames = bvh.read(Path(say(".save all.bvh").data["file"])).frames
+    assert say(".save ../my scripts/it's.ms").data["as_entered"]
+    assert not say(".save c.ms").data["as_entered"]
+    for path in (scripts / "it's.ms", Path.cwd() / "c.ms"):
+        monkeypatch.chdir(path.parent)
+        hash_sign, program, *words = shlex.split(path.read_text(encoding="utf-8").splitlines()[0])
+        assert (hash_sign, program, mlmgc.main(words)) == ("#", "mlmgc", 0)
+        np.testing.assert_array_equal(bvh.read(path.with_suffix(".bvh")).frames, frames)
+
+
+def test_a_script_on_the_demo_library_says_so(say: Say, tmp_path: Path) -> None:
+    say("WALK", f".save {tmp_path / 'a.ms'}")
+    assert " --library demo " in (tmp_path / "a.ms").read_text(encoding="utf-8")
+
+
+def test_no_file_that_is_read_is_written_over(say: Say, own_library: Path, scripts: Path) -> None:
+    Path("link.bvh").symlink_to(own_library)
+    say(".load ../my scripts/a.ms")
+    before = {path: path.read_bytes() for path in (own_library, scripts / "a.ms", scripts / "lib.ms")}
+    for name in ("link.bvh", "../my scripts/a.ms", "../my scripts/lib.ms"):
+        assert say(f".save {name}").text.endswith("this file is read; the output needs another name\n")
+    assert {path: path.read_bytes() for path in before} == before
+    assert say(".undo", "WALK", ".save ../my scripts/a.ms").ok
+
+
+@pytest.mark.parametrize("command", [".save", ".load", ".library"])
+@pytest.mark.parametrize("path", ["~nobody-of-that-name/a.ms", "a\0b.ms"])
+def test_what_no_file_can_be_called_is_refused(command: str, path: str, say: Say) -> None:
+    say("WALK")
+    assert say(f"{command} {path}").text.startswith("error: `")
+
+
+def test_a_path_may_begin_with_the_user_s_folder(say: Say, scripts: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("HOME", str(scripts.parent))
+    assert say(".load ~/my scripts/a.ms", ".save ~/here/x.bvh").ok
+    assert Path("x.bvh").is_file()
 
 
 def test_set_changes_how_motion_is_written(say: Say, tmp_path: Path) -> None:

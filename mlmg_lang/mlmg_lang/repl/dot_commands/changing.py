@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 from mlmg_lang.rendering import render_full
 from mlmg_lang.rendering.wording import safe
 from mlmg_lang.repl.desk import Desk
+from mlmg_lang.repl.dot_commands.dot_command import path_of
 from mlmg_lang.repl.reply import Refusal, Reply
 from mlmg_lang.repl.telling import telling_of
 from mlmg_lang.script_files import read_script
@@ -74,15 +73,17 @@ def load(desk: Desk, argument: str) -> Reply:
     """Play a script on from here, as one entry."""
     if not argument:
         raise Refusal("name a script, as in `.load stroll.ms`")
-    source, unreadable = read_script(Path(argument).expanduser())
+    path = path_of(argument)
+    source, unreadable = read_script(path)
     if unreadable:
         return Reply(render_full(unreadable, source, desk.colour), {"problem": unreadable[0].message}, ok=False)
-    return telling_of(desk).reply(desk.session.enter(source.text))
+    desk.allow_files_of(path)
+    return telling_of(desk).reply(desk.session.enter(source.text, source.name))
 
 
 def library(desk: Desk, argument: str) -> Reply:
     """Read the library again, or another, and play on it what was entered."""
-    path = Path(argument).expanduser() if argument else desk.session.library.path
+    path = path_of(argument) if argument else desk.session.library.path
     return _moved(desk, open_library(path))
 
 

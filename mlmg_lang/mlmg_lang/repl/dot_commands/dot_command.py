@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from enum import StrEnum
+from pathlib import Path
 
 from mlmg_lang.repl.desk import Desk
-from mlmg_lang.repl.reply import Reply
+from mlmg_lang.repl.reply import Refusal, Reply
 
 
 class Takes(StrEnum):
@@ -24,6 +25,25 @@ class Takes(StrEnum):
     NUMBER = "N"
     SETTING = "[OPTION VALUE]"
     SWITCH = "[on|off]"
+
+
+def path_of(argument: str) -> Path:
+    """Return the path that an argument names, with or without quotes around it; `~` is the user's folder.
+
+    Raises
+    ------
+    Refusal
+        If no file can be called that.
+    """
+    quoted = len(argument) > 1 and argument[0] == argument[-1] and argument[0] in "\"'"
+    written = argument[1:-1] if quoted else argument
+    try:
+        path = Path(written).expanduser()
+    except RuntimeError:
+        raise Refusal(f"`{written}`: there is no such user") from None
+    if "\0" in written:
+        raise Refusal(f"`{written}` cannot be the path of a file")
+    return path
 
 
 @dataclass(frozen=True, slots=True)

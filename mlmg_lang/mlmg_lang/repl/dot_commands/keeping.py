@@ -3,13 +3,19 @@
 from __future__ import annotations
 
 import json
+import os
+import shlex
 import tempfile
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from mlmg_lang.definitions.gather import Files
+from mlmg_lang.libraries import DEMO, is_demo
 from mlmg_lang.rendering.wording import safe
 from mlmg_lang.repl.desk import Desk
+from mlmg_lang.repl.dot_commands.dot_command import path_of
 from mlmg_lang.repl.reply import Refusal, Reply
+from mlmg_lang.script_files import used_files
 from mlmg_lang.session.saving import SavedScript, script_from_session
 from mlmg_lang.session.session import Session
 from mlmg_runtime.files import atomic_output
@@ -20,18 +26,19 @@ if TYPE_CHECKING:
 
 def save(desk: Desk, argument: str) -> Reply:
     """Write what was played as motion (.bvh), or the script that plays it again (.ms)."""
-    path = Path(argument).expanduser()
+    path = path_of(argument)
     if path.suffix.lower() not in (".bvh", ".ms"):
         raise Refusal(f"name a file that ends in .bvh or .ms, as in `.save stroll.bvh`, found `{argument}`")
-    script = _script(desk.session)
+    _refuse_to_write_what_is_read(desk.session, path)
     if path.suffix.lower() == ".bvh":
-        performance = _perform(desk, script)
+        performance = _perform(desk, _script(desk.session))
         _write(performance, path)
         told = f"{safe(str(path))}: {performance.report['n_frames']} frames, {_seconds_of(performance):.1f} s\n"
         data = {"file": str(path), "frames": performance.report["n_frames"]}
     else:
+        script = _script(desk.session, str(path), used_files(path))
         with atomic_output(path) as temporary:
-            temporary.write_text(_headed(script, desk.session, path), encoding="utf-8")
+            temporary.write_text(_headed(script, desk, path), encoding="utf-8")
         told = f"{safe(str(path))}: {_told(script)}\n"
         data = {"file": str(path), "as_entered": script.as_entered}
     desk.saved = desk.session.turns
@@ -95,8 +102,14 @@ def time(desk: Desk, argument: str) -> Reply:
     return Reply(f"time {'on' if desk.settings.time else 'off'}\n", {"time": desk.settings.time})
 
 
-def _script(session: Session) -> SavedScript:
-    script = script_from_session(session)
+def _refuse_to_write_what_is_read(session: Session, path: Path) -> None:
+    read = {os.path.realpath(one) for one in (str(session.library.path), *session.files_read)}
+    if os.path.realpath(path) in read:
+        raise Refusal(f"{path}: this file is read; the output needs another name")
+
+
+def _script(session: Session, name: str = "<session>", files: Files | None = None) -> SavedScript:
+    script = script_from_session(session, name, files)
     if script is None:
         raise Refusal("nothing has been played yet")
     return script
@@ -123,11 +136,26 @@ def _seconds_of(performance: Performance) -> float:
 def _told(script: SavedScript) -> str:
     if script.as_entered:
         return "plays exactly what was played"
-    return "plays exactly what was played: with the motions that were taken, as what was entered would play otherwise"
+    return "plays exactly what was played: with the motions that were taken, as what was entered would not do so"
 
 
-def _headed(script: SavedScript, session: Session, path: Path) -> str:
-    """Return a script with a line that says how to play it."""
-    motion = path.with_suffix(".bvh").name
-    called = f"# mlmgc {path.name} -o {motion} --library {session.library.path.name}"
-    return f"{called} --start {session.starts_in} --seed {session.seed}\n{script.text}"
+def _headed(script: SavedScript, desk: Desk, path: Path) -> str:
+    """Return a script with a line that says how to play it, from its own folder."""
+    session, settings = desk.session, desk.settings
+    words = ["mlmgc", path.name, "-o", path.with_suffix(".bvh").name, "--library", _library_from(session, path)]
+    words += ["--start", session.starts_in, "--seed", str(session.seed)]
+    words += ["--blend", settings.blend] if settings.blend is not None else []
+    words += ["--fps", f"{settings.fps:g}"] if settings.fps is not None else []
+    words += [] if settings.feet else ["--no-feet"]
+    return f"# {shlex.join(words)}\n{script.text}"
+
+
+def _library_from(session: Session, script: Path) -> str:
+    """Return what `--library` has to say in the folder of a script."""
+    library = session.library.path
+    if is_demo(library):
+        return DEMO
+    try:
+        return os.path.relpath(os.path.realpath(library), os.path.realpath(script.parent))
+    except ValueError:  # on another drive
+        return str(library.absolute())

@@ -4,25 +4,22 @@ from __future__ import annotations
 
 import hashlib
 import os
-import re
 import sys
 from collections import Counter
 from collections.abc import Iterable
 from pathlib import Path
-from typing import Final
 
+from mlmg_lang.libraries import DEMO, is_demo
 from mlmg_lang.parsing.tokenize import tokenize
 from mlmg_lang.parsing.tokens import NAMES
 from mlmg_lang.source import Source
-
-_DEMO: Final = re.compile(r"demo-[0-9a-f]{12}\.mlmg")
 
 
 def history_path(library: Path) -> Path:
     """Return the file that keeps what was entered for a library; MLMG_HISTORY names another folder for such files."""
     folder = Path(os.environ.get("MLMG_HISTORY") or state_folder() / "history")
     name = library_name(library)
-    place = "" if name == "demo" else f"-{hashlib.sha256(os.fsencode(library.absolute())).hexdigest()[:8]}"
+    place = "" if is_demo(library) else f"-{hashlib.sha256(os.fsencode(library.absolute())).hexdigest()[:8]}"
     return folder / f"{name}{place}.txt"
 
 
@@ -37,7 +34,7 @@ def state_folder() -> Path:
 
 def library_name(library: Path) -> str:
     """Return what a library is called: its file's stem, `demo` for the demo library."""
-    return "demo" if _DEMO.fullmatch(library.name) else library.stem
+    return DEMO if is_demo(library) else library.stem
 
 
 def uses_of(entries: Iterable[str]) -> Counter[str]:
