@@ -1,0 +1,153 @@
+"""An analysis and how its commands go -> small words between those of the text: what is taken, and what is meant."""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+from collections.abc import Collection, Iterator
+from dataclasses import dataclass
+from enum import StrEnum
+from typing import Protocol
+
+from mlmg_lang.analysis import Analysis
+from mlmg_lang.parsing import syntax
+from mlmg_lang.parsing.amounts import UNITS, seconds_from_quantity, spelled, unit_of
+from mlmg_lang.source import Span
+from mlmg_lang.spelling import normal
+
+
+class Kind(StrEnum):
+    """What a hint tells; each can be asked for by itself."""
+
+    MOTIONS = "motions"
+    UNIT = "unit"
+    PARAMETER = "parameter"
+
+
+ALL = frozenset(Kind)
+
+
+@dataclass(frozen=True, slots=True)
+class Hint:
+    """A few words to show at an offset.
+
+    Attributes
+    ----------
+    before : whether they belong to what stands behind the offset, else to what stands before it.
+    explanation : a sentence more.
+    """
+
+    offset: int
+    label: str
+    kind: Kind
+    before: bool
+    explanation: str
+
+
+@dataclass(frozen=True, slots=True)
+class Going:
+    """How a command goes.
+
+    Attributes
+    ----------
+    motions : by graph, the highest first, what it takes.
+    arrives_s : from the beginning of the script until all parts have arrived; None if that is not known.
+    sure : whether it is so in all cases that may come to pass.
+    """
+
+    motions: tuple[tuple[str, str], ...]
+    arrives_s: float | None
+    sure: bool
+
+
+class Outlook(Protocol):
+    """How the commands of a script go: foreseen, or found out by playing it."""
+
+    def going(self, command: Span) -> Going | None:
+        """Return how the command at a place goes, if that is known; of several times, the first."""
+
+
+def hints(
+    analysis: Analysis, within: Span, outlook: Outlook | None = None, kinds: Collection[Kind] = ALL
+) -> tuple[Hint, ...]:
+    """Return the hints in a stretch of a script, in the order of the text; nothing for what is broken.
+
+    Parameters
+    ----------
+    outlook : how commands go; without it, nothing is said of that.
+    """
+    hinter = _Hinter(analysis, outlook)
+    found = (hint for item, further in _items(analysis, within) for hint in hinter.of(item, further))
+    inside = (hint for hint in found if hint.kind in kinds and within.start <= hint.offset <= within.end)
+    return tuple(sorted(inside, key=lambda hint: (hint.offset, not hint.before)))
+
+
+def _items(analysis: Analysis, within: Span) -> Iterator[tuple[syntax.Item, int]]:
+    """Yield the items that may be in a stretch, each with how far from its address it stands."""
+    made = analysis.made
+    at = max(0, bisect_right(made.places.starts, within.start) - 1)
+    while at < len(made.pieces) and made.places.starts[at] <= within.end:
+        piece = made.pieces[at]
+        yield from ((item, made.places.starts[at] - piece.address) for item in piece.items)
+        at += 1
+
+
+@dataclass(frozen=True, slots=True)
+class _Hinter:
+    analysis: Analysis
+    outlook: Outlook | None
+
+    def of(self, item: syntax.Item, further: int) -> Iterator[Hint]:
+        """Yield the hints of an item that stands `further` on."""
+        own = item.command if isinstance(item, syntax.Let) else None
+        for node in syntax.walk(item):
+            match node:
+                case syntax.Command() if node is not own:
+                    yield from self._taken(Span(node.span.start + further, node.span.end + further))
+                case syntax.Quantity():
+                    yield from self._lasting(node, node.span.end + further)
+                case syntax.Call():
+                    yield from self._given(node, further)
+
+    def _taken(self, command: Span) -> Iterator[Hint]:
+        going = None if self.outlook is None else self.outlook.going(command)
+        if going is None or not going.motions:
+            return
+        motions = " with ".join(motion for _, motion in going.motions)
+        when = "" if going.arrives_s is None else f" at {spelled(round(going.arrives_s, 1)) or '0'} sec"
+        lines = [f"{motion} on {graph}" for graph, motion in going.motions]
+        likely = "" if going.sure else "probably "
+        label = f"{'' if going.sure else '~ '}{motions}{when}"
+        arrives = "" if going.arrives_s is None else f"; all parts have arrived{when} from the beginning"
+        yield Hint(command.end, label, Kind.MOTIONS, False, f"{likely}{', '.join(lines)}{arrives}")
+
+    def _lasting(self, quantity: syntax.Quantity, end: int) -> Iterator[Hint]:
+        """Yield what a quantity is in seconds, if it is not written so."""
+        if quantity.unit not in UNITS or quantity.unit in ("sec", "second", "seconds"):
+            return
+        catalog = self.analysis.question.catalog
+        rate = None if catalog is None else catalog.frame_rate
+        seconds, unit = seconds_from_quantity(quantity, rate), unit_of(quantity)
+        if unit == "cycles":
+            yield Hint(end, "passes of the clip", Kind.UNIT, False, "so many times the length of the motion's clip")
+        elif seconds is not None and seconds < float("inf"):
+            said = f" at {spelled(rate)} frames a second" if unit == "frames" and rate is not None else ""
+            label = f"= {spelled(seconds) or '0'} sec"
+            yield Hint(end, label, Kind.UNIT, False, f"{quantity.number} {unit} are {label[2:]}{said}")
+
+    def _given(self, call: syntax.Call, further: int) -> Iterator[Hint]:
+        """Yield the parameters that arguments without a name are for."""
+        let = self.analysis.made.gathered.definitions.find(call.name)
+        if let is None:
+            return
+        for argument, parameter in zip(call.arguments, let.parameters or (), strict=False):
+            if argument.name is not None:
+                return
+            if not _says(argument.value, parameter.name):
+                name = parameter.name.text
+                explanation = f"the parameter `{name}` of `{let.name.text}`"
+                yield Hint(argument.span.start + further, f"{name} =", Kind.PARAMETER, True, explanation)
+
+
+def _says(value: syntax.Motion | syntax.Quantity, name: syntax.Name) -> bool:
+    """Return whether an argument is a name that says itself which parameter it is for."""
+    return isinstance(value, syntax.Reference) and normal(value.name.text) == normal(name.text)

@@ -1,0 +1,99 @@
+"""An analysis -> what can be done with a script and with each of its commands, to be offered above them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from enum import StrEnum
+
+from mlmg_lang.analysis import Analysis, InPieces
+from mlmg_lang.parsing import syntax
+from mlmg_lang.pieces import all_of
+from mlmg_lang.planning import resolved
+from mlmg_lang.source import Span
+
+
+class Deed(StrEnum):
+    """What can be done."""
+
+    PLAY = "play"
+    EXPLAIN = "explain"
+    CANDIDATES = "candidates"
+
+
+@dataclass(frozen=True, slots=True)
+class Lens:
+    """Something that can be done.
+
+    Attributes
+    ----------
+    span : what it is shown above.
+    title : what it does, in a few words.
+    about : the command that it is about; None if it is about the script.
+    """
+
+    span: Span
+    title: str
+    deed: Deed
+    about: Span | None = None
+
+
+def lenses(analysis: Analysis) -> tuple[Lens, ...]:
+    """Return what can be done, in the order of the text: play and explain the script, see the candidates of commands.
+
+    Only of a script without mistakes that a library is known for; of others there is nothing that could be played.
+    """
+    if analysis.question.catalog is None or analysis.found.wrong:
+        return ()
+    found = tuple(_candidates(analysis.made))
+    if not found:
+        return ()
+    top = Span(0, 0)
+    return (Lens(top, "play to BVH", Deed.PLAY), Lens(top, "explain", Deed.EXPLAIN), *found)
+
+
+def _candidates(made: InPieces) -> Iterator[Lens]:
+    titles = {command.span: _title(command) for command in _commands(_statements(made))}
+    for piece, start in zip(made.pieces, made.places.starts, strict=False):
+        further = start - piece.address
+        for command in _written(piece.items):
+            if command.span in titles:
+                span = Span(command.span.start + further, command.span.end + further)
+                yield Lens(span, titles[command.span], Deed.CANDIDATES, span)
+
+
+def _statements(made: InPieces) -> Iterable[resolved.Statement]:
+    """Return what is to be played, at its addresses."""
+    return made.resolution.plan.statements if made.resolution is not None else all_of(made.played, "statements")
+
+
+def _commands(statements: Iterable[resolved.Statement]) -> Iterator[resolved.Command]:
+    for statement in statements:
+        match statement:
+            case resolved.Command():
+                yield statement
+            case resolved.Repeat(body=body):
+                yield from _commands(body)
+            case resolved.Choose(branches):
+                yield from (command for branch in branches for command in _commands(branch.body))
+
+
+def _written(items: Iterable[syntax.Item]) -> Iterator[syntax.Command]:
+    """Yield the commands of items, those of definitions left out."""
+    for item in items:
+        match item:
+            case syntax.Command():
+                yield item
+            case syntax.Repeat(body=body):
+                yield from _written(body)
+            case syntax.Choose(branches=branches):
+                yield from (command for branch in branches for command in _written(branch.body))
+
+
+def _title(command: resolved.Command) -> str:
+    """Return how many candidates a command has on each graph; a single one by its name."""
+    return ", ".join(f"{_said(layer.candidates)} on {layer.graph}" for layer in command.layers)
+
+
+def _said(candidates: Sequence[str]) -> str:
+    return candidates[0] if len(candidates) == 1 else f"{len(candidates)} candidates"

@@ -1,0 +1,73 @@
+"""How commands will probably go, as it is shown beside them: `ide.foreseen`."""
+
+import pytest
+
+from mlmg_lang.catalog import Catalog
+from mlmg_lang.front_end import analyse
+from mlmg_lang.ide.foreseen import foreseen
+from mlmg_lang.planning.estimate import Estimate, Playing, Trip, exactly
+from mlmg_lang.planning.forecast import forecast
+from mlmg_lang.planning.names import Names
+from mlmg_lang.source import Source
+
+
+class OneSecond:
+    """Every way takes a second; of several motions that are as soon, each is as likely."""
+
+    def soonest(
+        self, graph: str, playing: Playing, candidates: tuple[str, ...], driver: str, to_begin: bool = False
+    ) -> tuple[Trip, ...]:
+        return tuple(Trip(motion, 1.0 / len(candidates), exactly(1.0), 0.0) for motion in candidates)
+
+    def on_the_spot(self, graph: str, motion: str) -> Trip:
+        return Trip(motion, 1.0, exactly(0.75), 0.0, 1.0)
+
+    def back(self, graph: str, playing: Playing, driver: str, above: Playing) -> Trip:
+        return Trip(above.motion, 1.0, exactly(0.5), 0.25, 1.0)
+
+    def similarity(self, graph: str, above: str, motion: str) -> float:
+        return 1.0 if above == motion else 2.0
+
+    def unlikeness(self, graph: str, above: str, motion: str) -> float:
+        return 1.0
+
+    def to_last_frame(self, driver: str, playing: Playing) -> Estimate:
+        return exactly(7.0)
+
+    def one_pass(self, driver: str, motion: str) -> Estimate:
+        return exactly(5.0)
+
+    def cycle(self, motion: str) -> Estimate:
+        return exactly(10.0)
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("Idle_01\nWalk_01 for 3 sec\nwait 2 sec\nTalk_01", [("Idle_01", 0), ("Walk_01", 1), ("Talk_01", 7)]),
+        (
+            "Idle_01\nrepeat 3 { Walk_01 for 2 sec; Talk_01 }\nIdle_01",
+            [*zip(("Idle_01", "Walk_01", "Talk_01", "Idle_01"), (0, 1, 4, 13), strict=True)],
+        ),
+        ("Idle_01\nchoose { Walk_01 for 2 sec | }\nTalk_01", [("Idle_01", 0), ("Walk_01", 1), ("Talk_01", 2.5)]),
+        ("Idle_01\nWalk_01 with Upper-Body Talk_01", [("Idle_01", 0), ("Walk_01 Talk_01", 2)]),
+    ],
+)
+def test_commands_arrive_one_after_the_other(text: str, expected: list[tuple[str, float]], reference: Catalog) -> None:
+    plan = analyse(Source(text), reference).resolved
+    assert plan is not None
+    names = Names(reference)
+    told = foreseen(plan, forecast(plan, names, OneSecond()), names)
+    goings = [told.goings[span] for span in sorted(told.goings)]
+    assert [(" ".join(motion for _, motion in one.motions), one.arrives_s) for one in goings] == [
+        (motions, pytest.approx(seconds)) for motions, seconds in expected
+    ]
+    assert all(one.sure for one in goings)
+
+
+def test_what_depends_on_chance_is_not_sure(reference: Catalog) -> None:
+    plan = analyse(Source("Idle_01\nWALK"), reference).resolved
+    assert plan is not None
+    names = Names(reference)
+    told = foreseen(plan, forecast(plan, names, OneSecond()), names)
+    assert [one.sure for _, one in sorted(told.goings.items())] == [True, False]
