@@ -14,6 +14,7 @@ from mlmg_lang.commands import mlmgc
 from mlmg_lang.repl.conversation import Conversation
 from mlmg_lang.repl.dot_commands import DOT_COMMANDS
 from mlmg_lang.repl.reply import Reply
+from mlmg_lang.repl.terminal.toolbar import toolbar
 from mlmg_lang.session.session import Session
 from mlmg_runtime import bvh
 from mlmg_runtime.library import Library, open_library
@@ -236,7 +237,7 @@ def test_a_script_that_is_loaded_finds_what_it_uses_from_its_own_folder(say: Say
 def own_library(conversation: Conversation, scripts: Path, demo_library: Library) -> Path:
     """Return the library that the conversation is about: a file in the current folder."""
     shutil.copy(demo_library.path, "my.mlmg")
-    conversation.desk.replace_session(Session(open_library(Path("my.mlmg"))))
+    conversation.desk.replace_session(Session(open_library(Path("my.mlmg"))), ".library my.mlmg")
     return Path("my.mlmg")
 
 
@@ -308,22 +309,55 @@ def test_another_start_and_other_draws_play_all_anew(say: Say, conversation: Con
     assert (conversation.desk.session.starts_in, conversation.desk.session.seed) == ("Talk_01", 3)
 
 
+@pytest.mark.parametrize("line", [".start talk01", ".seed 3", ".library"])
+def test_what_plays_all_anew_can_be_taken_back_and_played_again(
+    line: str, say: Say, conversation: Conversation, tmp_path: Path
+) -> None:
+    desk = conversation.desk
+    say("WALK for 1 sec", f".save {tmp_path / 'a.bvh'}")
+    old = desk.session
+    say(line)
+    new = desk.session
+    assert new is not old
+    assert say("IDLE", ".undo").data["text"] == "IDLE"
+    assert say(".undo").data["text"] == line
+    assert desk.session is old
+    assert not desk.unsaved
+    assert say(".redo").data["text"] == line
+    assert desk.session is new
+    assert say(".redo").data["text"] == "IDLE"
+    assert not say(".undo", ".undo", ".undo", ".undo").ok
+    assert desk.session is old
+
+
+def test_an_entry_after_a_start_was_taken_back_drops_it(say: Say, conversation: Conversation) -> None:
+    say(".start talk01", ".undo", "WALK")
+    assert not say(".redo").ok
+    assert conversation.desk.session.starts_in == "Idle_01"
+    assert say(".undo", ".redo").data["text"] == "WALK"
+
+
 def test_a_library_that_changed_is_noticed_once_and_read_again_when_asked(
     conversation: Conversation, say: Say, tmp_path: Path, demo_library: Library
 ) -> None:
     path = tmp_path / "my.mlmg"
     shutil.copy(demo_library.path, path)
-    conversation.desk.replace_session(Session(open_library(path)))
+    conversation.desk.replace_session(Session(open_library(path)), ".library my.mlmg")
     say("WALK for 1 sec")
     assert not conversation.desk.library_changed
     shutil.copy(demo_library.path, tmp_path / "new.mlmg")
+    assert not conversation.desk.has_to_tell_of_change()
     (tmp_path / "new.mlmg").replace(path)
     assert conversation.desk.library_changed
+    assert [conversation.desk.has_to_tell_of_change() for _ in range(2)] == [True, False]
+    assert toolbar(conversation.desk, 80).startswith(" my (changed)  ")
     reply = say(".library")
     assert reply.ok
     assert "played anew" in reply.text
     assert not conversation.desk.library_changed
     assert len(conversation.desk.session.turns) == 1
+    say(".undo")
+    assert conversation.desk.library_changed
 
 
 def test_a_library_that_cannot_be_read_any_more_leaves_the_session_as_it_was(
@@ -331,7 +365,7 @@ def test_a_library_that_cannot_be_read_any_more_leaves_the_session_as_it_was(
 ) -> None:
     path = tmp_path / "my.mlmg"
     shutil.copy(demo_library.path, path)
-    conversation.desk.replace_session(Session(open_library(path)))
+    conversation.desk.replace_session(Session(open_library(path)), ".library my.mlmg")
     say("WALK for 1 sec")
     path.write_bytes(b"no library")
     assert not say(".library").ok

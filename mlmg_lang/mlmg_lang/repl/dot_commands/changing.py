@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from mlmg_lang.rendering import render_full
 from mlmg_lang.rendering.wording import safe
 from mlmg_lang.repl.desk import Desk
@@ -10,23 +12,29 @@ from mlmg_lang.repl.reply import Refusal, Reply
 from mlmg_lang.repl.telling import telling_of
 from mlmg_lang.script_files import read_script
 from mlmg_lang.session.replaying import Replayed, replay
+from mlmg_lang.session.session import Turn
 from mlmg_runtime.library import Library, open_library
 
 
 def undo(desk: Desk, _argument: str) -> Reply:
-    """Take the last entry back."""
-    turn = desk.session.undo()
-    if turn is None:
+    """Take the last entry back, or what replaced the session after it."""
+    text = desk.undo_replacement() or _text(desk.session.undo)
+    if text is None:
         raise Refusal("there is nothing to take back")
-    return _went(desk, "took back", turn.text)
+    return _went(desk, "took back", text)
 
 
 def redo(desk: Desk, _argument: str) -> Reply:
     """Play again what was taken back last."""
-    turn = desk.session.redo()
-    if turn is None:
+    text = _text(desk.session.redo) or desk.redo_replacement()
+    if text is None:
         raise Refusal("there is nothing to play again; an entry after `.undo` drops what was taken back")
-    return _went(desk, "played again", turn.text)
+    return _went(desk, "played again", text)
+
+
+def _text(step: Callable[[], Turn | None]) -> str | None:
+    turn = step()
+    return None if turn is None else turn.text
 
 
 def _went(desk: Desk, what: str, text: str) -> Reply:
@@ -44,7 +52,7 @@ def start(desk: Desk, argument: str) -> Reply:
     """Play all that was entered from another start motion on."""
     if not argument:
         raise Refusal("name the motion of the whole body to start in, such as `.start Idle_01`")
-    return _again(desk, argument.strip('"'), desk.session.seed, f"starts in {safe(argument)}")
+    return _again(desk, argument.strip('"'), desk.session.seed, f".start {argument}")
 
 
 def seed(desk: Desk, argument: str) -> Reply:
@@ -53,10 +61,10 @@ def seed(desk: Desk, argument: str) -> Reply:
         number = int(argument)
     except ValueError:
         raise Refusal(f"expected a whole number, as in `.seed 7`, found `{argument}`") from None
-    return _again(desk, desk.session.start, number, f"seed {number}")
+    return _again(desk, desk.session.start, number, f".seed {number}")
 
 
-def _again(desk: Desk, motion: str | None, number: int, what: str) -> Reply:
+def _again(desk: Desk, motion: str | None, number: int, said: str) -> Reply:
     """Replace the session by one that plays the same anew; if that cannot play all of it, keep it as it is."""
     try:
         replayed = replay(desk.session, desk.session.library, motion, number)
@@ -65,8 +73,10 @@ def _again(desk: Desk, motion: str | None, number: int, what: str) -> Reply:
     if replayed.lost:
         first = replayed.lost[0]
         raise Refusal(f"`{first.source.text.strip()}` could not be played then; nothing is changed")
-    desk.replace_session(replayed.session)
-    return Reply(f"{what}; {desk.session.n_seconds:.1f} s of motion\n", {"seconds": round(desk.session.n_seconds, 3)})
+    desk.replace_session(replayed.session, said)
+    session = desk.session
+    told = f"starts in {session.starts_in}, seed {session.seed}; {session.n_seconds:.1f} s of motion\n"
+    return Reply(told, {"seconds": round(session.n_seconds, 3)})
 
 
 def load(desk: Desk, argument: str) -> Reply:
@@ -84,23 +94,23 @@ def load(desk: Desk, argument: str) -> Reply:
 def library(desk: Desk, argument: str) -> Reply:
     """Read the library again, or another, and play on it what was entered."""
     path = path_of(argument) if argument else desk.session.library.path
-    return _moved(desk, open_library(path))
+    return _moved(desk, open_library(path), f".library {argument}".rstrip())
 
 
-def _moved(desk: Desk, other: Library) -> Reply:
+def _moved(desk: Desk, other: Library, said: str) -> Reply:
     session = desk.session
     try:
         replayed = replay(session, other, session.start, session.seed)
     except ValueError:
         replayed = replay(session, other, None, session.seed)
-    desk.replace_session(replayed.session)
-    return _told_of(replayed, other)
+    desk.replace_session(replayed.session, said)
+    return _told_of(replayed, other, session.n_seconds)
 
 
-def _told_of(replayed: Replayed, other: Library) -> Reply:
+def _told_of(replayed: Replayed, other: Library, seconds_before: float) -> Reply:
     lines = [f"{other.path.name}: {len(other.graphs)} graphs, {len(other.root.motions)} motions of the whole body"]
     if replayed.session.turns or replayed.lost:
-        lines.append(f"  {replayed.session.n_seconds:.1f} s of motion, played anew")
+        lines.append(f"  {replayed.session.n_seconds:.1f} s of motion, played anew; it was {seconds_before:.1f} s")
     lines += [f"  cannot be played on it: {_line(one.source.text)}" for one in replayed.lost]
     data = {
         "library": str(other.path),

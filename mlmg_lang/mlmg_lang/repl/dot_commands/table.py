@@ -84,7 +84,7 @@ DOT_COMMANDS: Final[tuple[DotCommand, ...]] = (
         "undo",
         Takes.NOTHING,
         "take the last entry back",
-        "as often as there are entries; .redo goes forward again",
+        "as often as there are entries; .start, .seed and .library are taken back too; .redo goes forward again",
         changing.undo,
     ),
     DotCommand("redo", Takes.NOTHING, "play again what was taken back", "", changing.redo),

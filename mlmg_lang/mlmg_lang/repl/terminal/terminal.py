@@ -98,8 +98,7 @@ class TerminalFace:
         return reply
 
     def _read(self) -> str:
-        if self._desk.library_changed:
-            self._desk.note_library()
+        if self._desk.has_to_tell_of_change():
             name = self._desk.session.library.path.name
             self._print(f"{name} has changed on disk; `.library` reads it again and plays on it what was entered\n")
         prompt = self._prompt = self._prompt or self._made()

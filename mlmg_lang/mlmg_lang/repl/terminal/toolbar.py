@@ -17,7 +17,8 @@ def toolbar(desk: Desk, width: int) -> str:
     session = desk.session
     playing = [f"{one.graph} {one.motion}:{one.frame}" for one in session.playing]
     ends = [f"{session.n_seconds:.1f} s", *(["unsaved"] if desk.unsaved else [])]
-    parts = [library_name(session.library.path), *playing, *ends]
+    changed = " (changed)" if desk.library_changed else ""
+    parts = [library_name(session.library.path) + changed, *playing, *ends]
     while len(parts) > 1 and n_columns("  ".join(parts)) > width - 1:
         # What the lowest part does goes first, then the name of the library; how long it is stays.
         parts.pop(len(parts) - len(ends) - 1 if len(parts) > len(ends) + 1 else 0)
