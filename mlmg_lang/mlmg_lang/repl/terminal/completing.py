@@ -85,7 +85,10 @@ class ScriptCompleter(Completer):
     def _fit(self, one: Completion) -> str:
         if one.fit is None:
             return ""
-        if one.graph == self.desk.session.names.root:
+        session = self.desk.session
+        if one.graph == session.names.root:
+            if one.what is What.MOTION and session.state is None and session.start is None:
+                return "starts in it"
             return "plays" if one.fit == 0 else f"in {one.fit:.1f} s"
         return f"OMS {one.fit:.2f}"
 

@@ -14,11 +14,13 @@ from prompt_toolkit.lexers import Lexer
 
 from mlmg_grammar import scan
 from mlmg_grammar.roles import Role, roles
-from mlmg_lang.diagnostics import Severity
+from mlmg_lang.diagnostics import Diagnostic, Severity
+from mlmg_lang.ide.cursor import is_open
 from mlmg_lang.parsing.build_syntax import motion_script
+from mlmg_lang.parsing.tokenize import tokenize
 from mlmg_lang.repl.conversation import is_dotted
 from mlmg_lang.repl.desk import Desk
-from mlmg_lang.source import Span
+from mlmg_lang.source import Source, Span
 
 _CLASSES: Final[Mapping[Role, str]] = MappingProxyType(
     {
@@ -44,6 +46,9 @@ MOST_CHECKED: Final = 2_000
 """Longer texts, in code points, are coloured but not checked while they are typed."""
 MOST_COLOURED: Final = 20_000
 """Still longer ones are shown as they are: all of this is done at each key."""
+_UNCLOSED: Final = frozenset({"MS012", "MS013"})
+_UNFINISHED: Final = _UNCLOSED | {"MS010", "MS014", "MS016", "MS017", "MS024"}
+"""What is said of a statement that ends too early."""
 _UNDERLINES: Final = {Severity.ERROR: " class:error", Severity.WARNING: " class:warning", Severity.HINT: " class:hint"}
 
 
@@ -91,7 +96,9 @@ class ScriptLexer(Lexer):
         if len(document.text) > MOST_CHECKED:
             return {0: ""}
         told = self.desk.session.analyse(document.text).diagnostics
-        wrong = [(one.span, one.severity) for one in told if one.span is not None and _is_certain(one.span, document)]
+        wrong = [
+            (one.span, one.severity) for one in told if one.span is not None and _is_certain(one, one.span, document)
+        ]
         marks = {0: ""}
         for span, severity in sorted(wrong, reverse=True):
             marks[span.end] = marks.get(span.end, "")
@@ -99,9 +106,15 @@ class ScriptLexer(Lexer):
         return marks
 
 
-def _is_certain(span: Span, document: Document) -> bool:
-    """Return whether what is wrong in a stretch is not that it is still being typed."""
-    return not span.start <= document.cursor_position <= span.end
+def _is_certain(one: Diagnostic, span: Span, document: Document) -> bool:
+    """Return whether a mistake in a stretch is not that a word, or a statement at the end, is still being typed."""
+    text, cursor = document.text, document.cursor_position
+    if span.start <= cursor <= span.end:
+        return False
+    if text[cursor:].strip():
+        return True
+    goes_on = not text[span.end : cursor].strip() or (one.code in _UNCLOSED and is_open(tokenize(Source(text))))
+    return not (goes_on and one.code in _UNFINISHED)
 
 
 def _last_before(marks: Mapping[int, str], at: int) -> int:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from prompt_toolkit import PromptSession
@@ -68,6 +70,8 @@ class TerminalFace:
     input: Input | None = None
     output: Output | None = None
     _prompt: PromptSession[str] | None = field(default=None, init=False)
+    _library: Path | None = field(default=None, init=False)
+    _uses: Counter[str] = field(default_factory=Counter, init=False)
 
     def run(self) -> None:
         """Read and reply until the person leaves."""
@@ -101,9 +105,13 @@ class TerminalFace:
         if self._desk.has_to_tell_of_change():
             name = self._desk.session.library.path.name
             self._print(f"{name} has changed on disk; `.library` reads it again and plays on it what was entered\n")
-        prompt = self._prompt = self._prompt or self._made()
-        prompt.editing_mode = EditingMode.VI if self._desk.settings.keys == "vi" else EditingMode.EMACS
-        return prompt.prompt()
+        library = self._desk.session.library.path
+        if self._prompt is None or self._library != library:
+            self._prompt, self._library = self._made(), library
+        self._prompt.editing_mode = EditingMode.VI if self._desk.settings.keys == "vi" else EditingMode.EMACS
+        entry = self._prompt.prompt()
+        self._uses.update(uses_of([entry]))
+        return entry
 
     def _may_leave(self) -> bool:
         """Return whether the person really wants to leave; asked only if something would be lost."""
@@ -121,7 +129,8 @@ class TerminalFace:
 
     def _made(self) -> PromptSession[str]:
         history = _history(self._desk)
-        completer = ScriptCompleter(self._desk, uses_of(history.load_history_strings()))
+        self._uses = uses_of(history.load_history_strings())
+        completer = ScriptCompleter(self._desk, self._uses)
         return PromptSession(
             [("class:prompt", PROMPT)],
             multiline=True,

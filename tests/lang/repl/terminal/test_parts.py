@@ -34,7 +34,7 @@ def test_the_menu_shows_graph_motions_seconds_and_rank(menu: Callable[[str], lis
     shown = dict(menu("IDLE with Upper-Body T"))
     assert shown["TALK"] == "Upper-Body  2 motions, 22 s  1. OMS 0.19"
     assert dict(menu("W"))["WALK"].startswith("Full-Body  3 motions, 34 s  1. in ")
-    assert dict(menu("I"))["Idle_01"].endswith("plays")
+    assert dict(menu("I"))["Idle_01"].endswith("starts in it")
 
 
 def test_commands_with_a_dot_are_completed_with_what_they_take(
@@ -53,6 +53,8 @@ def test_commands_with_a_dot_are_completed_with_what_they_take(
 
 
 def test_the_menu_follows_what_is_played(menu: Callable[[str], list[tuple[str, str]]], say: Say) -> None:
+    say("Idle_01")
+    assert dict(menu("I"))["Idle_01"].endswith("plays")
     assert "Upper-Body" in [text for text, _ in menu("Up")]
     say("Idle_02")
     assert "Upper-Body" not in [text for text, _ in menu("Up")]
@@ -84,6 +86,25 @@ def test_what_is_wrong_is_underlined_while_it_is_typed_but_not_the_word_at_the_c
     assert ("class:name class:error", "WLAK") in pieces(conversation, "WLAK for 3 sec")
     assert ("class:name", "WLAK") in pieces(conversation, "WLAK")
     assert ("class:name class:error", "WLAK") in pieces(conversation, "WLAK; WALK", 10)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        *("WALK with Upper-Body ", "WALK with ", "WALK for ", "WALK for 3 ", "wait ", "repeat ", "repeat 3 ", "let A "),
+        *("repeat 3 { WALK for 1 sec; ", "choose { WALK | ", "(WALK and IDLE ", "end ", "repeat 3 {\n", "let A = "),
+    ],
+)
+def test_what_may_still_be_finished_is_not_underlined_but_is_if_more_stands_behind_it(
+    text: str, conversation: Conversation
+) -> None:
+    def errors(text: str, at: int) -> bool:
+        lines = ScriptLexer(conversation.desk).lex_document(Document(text, at))
+        return any("class:error" in piece[0] for n in range(text.count("\n") + 1) for piece in lines(n))
+
+    assert not errors(text, len(text))
+    assert errors(f"{text}\nWALK for", len(text)) or "{" in text
+    assert errors(f"WLAK; {text}", len(text) + 6)
 
 
 def test_what_is_wrong_is_underlined_in_the_line_where_it_is(conversation: Conversation) -> None:

@@ -1,5 +1,7 @@
 """Whole sessions at the prompt, with keys from a pipe and a terminal that shows nothing."""
 
+import shutil
+from collections import Counter
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -10,7 +12,10 @@ from prompt_toolkit.input import PipeInput, create_pipe_input
 from prompt_toolkit.output import DummyOutput
 
 from mlmg_lang.repl.conversation import Conversation
+from mlmg_lang.repl.desk import Desk
+from mlmg_lang.repl.terminal.completing import ScriptCompleter
 from mlmg_lang.repl.terminal.terminal import TerminalFace
+from mlmg_runtime.library import Library
 
 ENTER, CTRL_C, CTRL_D, ESCAPE, UP = "\r", "\x03", "\x04", "\x1b", "\x1b[A"
 
@@ -88,6 +93,33 @@ def test_what_was_entered_is_found_again_in_the_next_session(
 ) -> None:
     typed(f"WALK for 1 sec{ENTER}{CTRL_D}y{ENTER}")
     assert typed(f"{UP}{ENTER}{CTRL_D}y{ENTER}") == ["WALK for 1 sec", "WALK for 1 sec"]
+
+
+def test_another_library_has_its_own_history(
+    typed: Callable[[str], list[str]], demo_library: Library, tmp_path: Path
+) -> None:
+    shutil.copy(demo_library.path, tmp_path / "my.mlmg")
+    typed(f"WALK for 1 sec{ENTER}.library {tmp_path / 'my.mlmg'}{ENTER}IDLE{ENTER}{CTRL_D}y{ENTER}")
+    kept = {path.name.partition("-")[0]: path.read_text() for path in (tmp_path / "history").iterdir()}
+    assert "+WALK" in kept["demo.txt"]
+    assert "+IDLE" not in kept["demo.txt"]
+    assert "+IDLE" in kept["my"]
+    assert "+WALK" not in kept["my"]
+
+
+def test_what_is_entered_counts_as_used_at_once(
+    typed: Callable[[str], list[str]], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    seen: list[Counter[str]] = []
+    made = ScriptCompleter.__init__
+
+    def remembered(self: ScriptCompleter, desk: Desk, uses: Counter[str]) -> None:
+        seen.append(uses)
+        made(self, desk, uses)
+
+    monkeypatch.setattr(ScriptCompleter, "__init__", remembered)
+    typed(f"WALK for 1 sec{ENTER}WALK{ENTER}{CTRL_D}y{ENTER}")
+    assert seen[0]["WALK"] == 2
 
 
 def test_vi_keys_can_be_set(typed: Callable[[str], list[str]]) -> None:
