@@ -17,7 +17,7 @@ from mlmg_lang.parsing.case import guess_case
 from mlmg_lang.parsing.lookalikes import opens_or_closes
 from mlmg_lang.parsing.parse import parse
 from mlmg_lang.parsing.structure import check_definition, check_structure, misplaced
-from mlmg_lang.parsing.syntax import Item, Script, Use
+from mlmg_lang.parsing.syntax import Item, Let, Script, Use
 from mlmg_lang.parsing.tokenize import MAX_TOKENS, tokenize
 from mlmg_lang.pieces import Piece, Places, all_of, pieces_of, starts_of
 from mlmg_lang.source import Source, Span
@@ -149,8 +149,9 @@ class _Reader:
     def _expanded(self, piece: Piece) -> tuple[tuple[Item, ...], int, list[Diagnostic]]:
         """Return what a piece says with what is defined put in, how large that has made it, and what is wrong."""
         if not self._gathered.definitions.lets:
-            kept = tuple(item for item in piece.items if not isinstance(item, Use)) if piece.defining else piece.items
-            return kept, 0, []
+            if not piece.defining:
+                return piece.items, 0, []
+            return tuple(item for item in piece.items if not isinstance(item, Let | Use)), 0, []
         before, n_nodes = len(self._expander.diagnostics), self._expander.all_nodes
         items = self._expander.body(piece.items)
         said = self._expander.diagnostics[before:]

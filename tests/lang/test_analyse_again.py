@@ -38,6 +38,7 @@ DEFINING = (
     *(
         "let H(p) = p and not x\n",
         "let z = WLAK\n",
+        "let 😀 = WALK\n",
         "let WALK = IDLE\n",
         'use "a.ms"\n',
         'use "b.ms"\n',
@@ -216,3 +217,13 @@ def test_a_line_typed_again_and_again_in_the_same_place_is_still_kept_apart(libr
         analysis = check(analysis, text, library)
         text = text.replace("WALK for 2 sec\n", "WALK for 2 sec\nTALK for 1 sec\n", 1)
         analysis = check(analysis, text, library)
+
+
+def test_a_definition_that_has_no_sound_name_is_no_statement_however_its_script_came_about(
+    libraries: Mapping[str, Any],
+) -> None:
+    library = libraries["reference"]
+    before = analyse(Source("let A😀 = WALK\nlet B = IDLE\nTALK\n"), library)
+    plan = check(before, "let A😀 = WALK\nlet B = |IDLE\nTALK\n", library).plan
+    assert plan is not None
+    assert [statement.span.start for statement in plan.statements] == [14, 28]

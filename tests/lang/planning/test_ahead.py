@@ -80,6 +80,7 @@ def test_no_combination_of_candidates_is_cheaper(data, commands, left_hand_alway
     [
         "Idle_01 for 2 sec\nWALK for 2 sec\nIDLE for 2 sec\nWALK with Upper-Body TALK for 2 sec",
         "Idle_01\nWALK\nTALK\nIDLE\nwait 1 cycles\nWALK for 1 sec",
+        "Idle_01\nUpper-Body Music\nwait 2.5 cycles\nMusic or WALK for 1 sec\nIDLE",
         "Talk_01 once\nIDLE with Left-Hand WAVE for 3 sec\nend Left-Hand\nWALK and TALK for 2 sec",
     ],
 )
