@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from bisect import bisect_right
 from collections.abc import Collection, Iterator
 from dataclasses import dataclass
 from enum import StrEnum
 from typing import Protocol
 
 from mlmg_lang.analysis import Analysis
+from mlmg_lang.ide.touching import pieces_touching
 from mlmg_lang.parsing import syntax
 from mlmg_lang.parsing.amounts import UNITS, seconds_from_quantity, spelled, unit_of
 from mlmg_lang.source import Span
@@ -76,19 +76,10 @@ def hints(
     outlook : how commands go; without it, nothing is said of that.
     """
     hinter = _Hinter(analysis, outlook)
-    found = (hint for item, further in _items(analysis, within) for hint in hinter.of(item, further))
+    touching = pieces_touching(analysis, within)
+    found = (hint for piece, further in touching for item in piece.items for hint in hinter.of(item, further))
     inside = (hint for hint in found if hint.kind in kinds and within.start <= hint.offset <= within.end)
     return tuple(sorted(inside, key=lambda hint: (hint.offset, not hint.before)))
-
-
-def _items(analysis: Analysis, within: Span) -> Iterator[tuple[syntax.Item, int]]:
-    """Yield the items that may be in a stretch, each with how far from its address it stands."""
-    made = analysis.made
-    at = max(0, bisect_right(made.places.starts, within.start) - 1)
-    while at < len(made.pieces) and made.places.starts[at] <= within.end:
-        piece = made.pieces[at]
-        yield from ((item, made.places.starts[at] - piece.address) for item in piece.items)
-        at += 1
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,0 +1,185 @@
+"""A definition, or a use of it -> what it says, in place of its name."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+
+from mlmg_lang.analysis import Analysis, InPieces
+from mlmg_lang.ide.rewriting import Edit
+from mlmg_lang.ide.touching import pieces_touching
+from mlmg_lang.parsing import syntax
+from mlmg_lang.source import Source, Span
+from mlmg_lang.spelling import normal
+
+
+@dataclass(frozen=True, slots=True)
+class Inlining:
+    """The edits that put in what a definition says."""
+
+    title: str
+    edits: tuple[Edit, ...]
+
+
+def inlinings(analysis: Analysis, within: Span) -> Iterator[Inlining]:
+    """Yield what puts in a definition that a stretch touches the name of: this one use, or all with the definition.
+
+    Nothing for definitions and uses with mistakes; nor for all uses of a script in which a statement cannot be read.
+    """
+    for piece, further in pieces_touching(analysis, within):
+        for item in piece.items:
+            for use in _uses(item):
+                if _touches(use.node.name.span, further, within):
+                    yield from _of_use(analysis, use)
+            if isinstance(item, syntax.Let) and _touches(item.name.span, further, within):
+                yield from _of_all(analysis, item)
+
+
+def _touches(name: Span, further: int, within: Span) -> bool:
+    return name.start + further <= within.start and within.end <= name.end + further
+
+
+@dataclass(frozen=True, slots=True)
+class _Use:
+    """Where a name is used that may be that of a definition.
+
+    Attributes
+    ----------
+    whole : the command that is nothing but this; else None.
+    hidden : the parameters of the definition that it stands in, which names put in there would mean.
+    in_let : whether it stands in a definition.
+    """
+
+    node: syntax.Reference | syntax.Call
+    whole: syntax.Command | None
+    hidden: frozenset[str]
+    in_let: bool
+
+
+def _uses(item: syntax.Item) -> Iterator[_Use]:
+    """Yield the names in an item that may be those of definitions, in the order of the text."""
+    parameters = item.parameters or () if isinstance(item, syntax.Let) else ()
+    hidden = frozenset(normal(one.name.text) for one in parameters)
+    wholes = {id(node.motion): node for node in syntax.walk(item) if isinstance(node, syntax.Command)}
+    for node in syntax.walk(item):
+        if isinstance(node, syntax.Reference | syntax.Call) and normal(node.name.text) not in hidden:
+            yield _Use(node, wholes.get(id(node)), hidden, isinstance(item, syntax.Let))
+
+
+def _of_use(analysis: Analysis, use: _Use) -> Iterator[Inlining]:
+    let = analysis.made.gathered.definitions.find(use.node.name)
+    text = None if let is None else _put_in(analysis, let, use)
+    if let is not None and text is not None:
+        yield Inlining(f"put in what `{let.name.text}` says", (Edit(analysis.made.now(use.node.span), text),))
+
+
+def _of_all(analysis: Analysis, let: syntax.Let) -> Iterator[Inlining]:
+    made = analysis.made
+    definitions = made.gathered.definitions
+    if definitions.find(let.name) is not let or any(piece.broken for piece in made.pieces):
+        return
+    edits = []
+    for use in (use for piece in made.pieces for item in piece.items if item is not let for use in _uses(item)):
+        if normal(use.node.name.text) == normal(let.name.text):
+            text = _put_in(analysis, let, use)
+            if text is None:
+                return
+            edits.append(Edit(made.now(use.node.span), text))
+    removal = Edit(_line_of(made.source, made.now(let.span)), "")
+    if not edits or any(_overlap(one, other) for one in edits for other in edits if one is not other):
+        return
+    yield Inlining(f"put in what `{let.name.text}` says everywhere, and take it out", _sorted([*edits, removal]))
+
+
+def _sorted(edits: Iterable[Edit]) -> tuple[Edit, ...]:
+    return tuple(sorted(edits, key=lambda edit: edit.span))
+
+
+def _overlap(one: Edit, other: Edit) -> bool:
+    return one.span.start < other.span.end and other.span.start < one.span.end
+
+
+def _line_of(source: Source, span: Span) -> Span:
+    """Return a span with the rest of its lines if there are but spaces there."""
+    text, start, end = source.text, span.start, span.end
+    while start > 0 and text[start - 1] in " \t":
+        start -= 1
+    while end < len(text) and text[end] in " \t":
+        end += 1
+    if (start > 0 and text[start - 1] not in "\r\n") or (end < len(text) and text[end] not in "\r\n"):
+        return span
+    return Span(start, end + (2 if text.startswith("\r\n", end) else int(end < len(text))))
+
+
+# --- what is put in -------------------------------------------------------------------------------------
+
+
+def _put_in(analysis: Analysis, let: syntax.Let, use: _Use) -> str | None:
+    """Return what a definition says in a use of it; None if it cannot be put in there without another meaning."""
+    made = analysis.made
+    signature = made.gathered.definitions.signatures.get(normal(let.name.text))
+    values = _values(let, use.node, made)
+    if signature is None or values is None or _means_otherwise(let, use.hidden):
+        return None
+    if signature.lasts:
+        alone = use.whole is not None and use.whole.duration is None and use.whole.once is None and not use.in_let
+        return _Putting(made, values).text(let.command) if alone else None
+    text = _Putting(made, values).text(let.command.motion)
+    bare = use.whole is not None and not isinstance(let.command.motion, syntax.Reference)
+    return text if bare or isinstance(let.command.motion, syntax.Group) else f"({text})"
+
+
+def _means_otherwise(let: syntax.Let, hidden: frozenset[str]) -> bool:
+    """Return whether a name in a definition would mean a parameter of the one that it is put into."""
+    own = {normal(one.name.text) for one in let.parameters or ()}
+    names = {normal(node.text) for node in syntax.walk(let.command) if isinstance(node, syntax.Name)}
+    return bool((names - own) & hidden)
+
+
+@dataclass(frozen=True, slots=True)
+class _Putting:
+    """Puts the values of parameters into what a definition says."""
+
+    made: InPieces
+    values: Mapping[str, str]
+
+    def text(self, node: syntax.Node) -> str:
+        """Return what a part of a definition says, with values in place of parameters."""
+        at = self.made.now(node.span)
+        text = self.made.source.slice(at)
+        for name in sorted(self._given(node), key=lambda name: name.span, reverse=True):
+            place = self.made.now(name.span)
+            first, last = place.start - at.start, place.end - at.start
+            text = text[:first] + self.values[normal(name.text)] + text[last:]
+        return text
+
+    def _given(self, node: syntax.Node) -> Iterator[syntax.Name]:
+        for part in syntax.walk(node):
+            match part:
+                case syntax.Reference(name) | syntax.Command(duration=syntax.Name() as name):
+                    if normal(name.text) in self.values:
+                        yield name
+
+
+def _values(let: syntax.Let, use: syntax.Reference | syntax.Call, made: InPieces) -> dict[str, str] | None:
+    """Return what each parameter of a definition is in a use of it, as it is written there; None if one is missing."""
+    parameters = let.parameters or ()
+    names = [normal(one.name.text) for one in parameters]
+    values = {
+        name: _written(one.default, made)
+        for name, one in zip(names, parameters, strict=True)
+        if one.default is not None
+    }
+    arguments = use.arguments if isinstance(use, syntax.Call) else ()
+    if len(arguments) > len(names):
+        return None
+    for at, argument in enumerate(arguments):
+        name = names[at] if argument.name is None else normal(argument.name.text)
+        values[name] = _written(argument.value, made)
+    return values if set(values) == set(names) else None
+
+
+def _written(value: syntax.Motion | syntax.Quantity, made: InPieces) -> str:
+    """Return a value as it is written, in parentheses if that may be needed where it is put in."""
+    text = made.source.slice(made.now(value.span))
+    return text if isinstance(value, syntax.Quantity | syntax.Reference | syntax.Group) else f"({text})"

@@ -1,0 +1,21 @@
+"""An analysis and a stretch of its text -> the pieces of the script that are there."""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+from collections.abc import Iterator
+
+from mlmg_lang.analysis import Analysis
+from mlmg_lang.pieces import Piece
+from mlmg_lang.source import Span
+
+
+def pieces_touching(analysis: Analysis, within: Span) -> Iterator[tuple[Piece, int]]:
+    """Yield the pieces that a stretch touches, each with how far from its address it stands."""
+    made = analysis.made
+    starts = made.places.starts
+    first = min(bisect_right(starts, within.start), len(made.pieces)) - 1
+    for at in range(max(0, first), len(made.pieces)):
+        if starts[at] > within.end:
+            return
+        yield made.pieces[at], starts[at] - made.pieces[at].address
