@@ -11,7 +11,7 @@ from mlmg_lang.diagnostics import Diagnostic, Note
 from mlmg_lang.parsing import syntax
 from mlmg_lang.parsing.parse import parse
 from mlmg_lang.parsing.tokenize import tokenize
-from mlmg_lang.source import Source
+from mlmg_lang.source import Source, Span
 from mlmg_lang.spelling import normal
 
 MAX_FILES = 100
@@ -69,6 +69,7 @@ class Used:
     source : the script, with these files.
     complete : False if one could not be used.
     earlier : the files that came with the source: their definitions stand before its own.
+    named : by the place of a path, the name of the file that it leads to.
     """
 
     source: Source
@@ -76,6 +77,7 @@ class Used:
     complete: bool
     diagnostics: tuple[Diagnostic, ...]
     earlier: tuple[syntax.Script, ...] = ()
+    named: Mapping[Span, str] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True)
@@ -104,7 +106,8 @@ def gather(source: Source, script: syntax.Script, files: Files) -> Gathered:
     n_earlier = len(opener.scripts)
     opener.use(script, source.name, ())
     earlier, scripts = tuple(opener.scripts[:n_earlier]), tuple(opener.scripts[n_earlier:])
-    return gather_with(script, Used(opener.source, scripts, opener.complete, tuple(opener.diagnostics), earlier))
+    used = Used(opener.source, scripts, opener.complete, tuple(opener.diagnostics), earlier, opener.named)
+    return gather_with(script, used)
 
 
 def gather_with(script: syntax.Script, used: Used) -> Gathered:
@@ -136,6 +139,7 @@ class _Opener:
     complete: bool = True
     scripts: list[syntax.Script] = field(default_factory=list)
     diagnostics: list[Diagnostic] = field(default_factory=list)
+    named: dict[Span, str] = field(default_factory=dict)
 
     def use_given(self) -> None:
         """Take the files that came with the source, and open those that they use."""
@@ -157,6 +161,7 @@ class _Opener:
             self._refuse(use, "MS058", found, 'name a file of definitions, as in `use "gestures.ms"`')
             return
         file, unreadable = found
+        self.named[use.path.span] = file.name
         if file.name in users:
             circle = " -> ".join(f"`{name}`" for name in (*users[users.index(file.name) :], file.name))
             self._refuse(use, "MS059", f"these files use each other in a circle: {circle}", "take one `use` out")

@@ -15,6 +15,7 @@ from typing import Final, Protocol, TypeAlias
 from mlmg_lang.definitions.gather import Definitions
 from mlmg_lang.diagnostics import Diagnostic
 from mlmg_lang.ide.cursor import Cursor, cursor_at
+from mlmg_lang.ide.words import WORDS
 from mlmg_lang.parsing import syntax
 from mlmg_lang.parsing.lexical import script_name
 from mlmg_lang.parsing.line_parser import accepted, read
@@ -29,21 +30,6 @@ from mlmg_lang.source import Source, Span
 
 _NAMES: Final = frozenset({"NAME", "STRING", "UNIT"})
 _UNITS: Final = ("sec", "ms", "min", "frames", "cycles")
-_WORDS: Final[Mapping[str, str]] = {
-    "WITH": "and, at the same time, on a part of the body",
-    "FOR": "so long",
-    "ONCE": "once, from its beginning to its end",
-    "AND": "what is both",
-    "OR": "what is one of both",
-    "NOT": "all but",
-    "WAIT": "stay in what is playing",
-    "END": "give a part of the body back",
-    "REPEAT": "several times",
-    "CHOOSE": "one of several, by chance",
-    "LET": "define a name",
-    "USE": "the definitions of another file",
-}
-"""The words of the language, the likeliest first, each with what it says."""
 _STATEMENT_WORDS: Final = frozenset({"WAIT", "END", "REPEAT", "CHOOSE", "LET", "USE"})
 _TOP_LEVEL: Final = frozenset({"LET", "USE"})
 
@@ -172,7 +158,7 @@ class _Completer:
 
     def _words(self, types: Collection[str]) -> Iterator[Completion]:
         continuing = accepted(self.cursor.last) or frozenset() if self.cursor.last else frozenset()
-        for terminal, says in _WORDS.items():
+        for terminal, says in WORDS.items():
             if terminal in _TOP_LEVEL and self.cursor.nested:
                 continue
             if terminal == "WITH" and not self._leaves_room(self.cursor.before or self.cursor.last):

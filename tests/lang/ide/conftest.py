@@ -1,13 +1,16 @@
 """What completion is asked, on libraries of nothing but names."""
 
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import dataclass
 
 import pytest
 
 from mlmg_lang.catalog import Catalog
-from mlmg_lang.front_end import analyse
+from mlmg_lang.diagnostics import Diagnostic
+from mlmg_lang.front_end import Analysis, analyse
 from mlmg_lang.ide.completion import Completion, Offers, Surroundings, complete
+from mlmg_lang.ide.occurrences import Place
+from mlmg_lang.ide.rename import Edit
 from mlmg_lang.parsing.tokenize import tokenize
 from mlmg_lang.planning import flow
 from mlmg_lang.planning.names import Names
@@ -42,3 +45,51 @@ def offers(reference: Catalog) -> Callable[..., list[Completion]]:
 def texts(offers: Callable[..., list[Completion]]) -> Callable[..., list[str]]:
     """Return the same, as texts to be written."""
     return lambda *asked, **how: [one.text for one in offers(*asked, **how)]
+
+
+@dataclass(frozen=True)
+class Folder:
+    """Files that stand in no folder, by the path that names them."""
+
+    texts: Mapping[str, str]
+
+    def find(self, path: str, user: str) -> tuple[Source, tuple[Diagnostic, ...]] | str:
+        return (Source(self.texts[path], path), ()) if path in self.texts else f"there is no file `{path}`"
+
+
+@dataclass(frozen=True)
+class Marked:
+    """A script, what is known of it, and where its cursor `¦` is."""
+
+    analysis: Analysis
+    offset: int
+
+    def written(self, place: Place) -> str:
+        """Return what stands in a place."""
+        source = self.analysis.source
+        text = next(file.text for file in (source, *source.used) if file.name == place.file)
+        return text[place.span.start : place.span.end]
+
+
+@pytest.fixture
+def marked(reference: Catalog) -> Callable[..., Marked]:
+    """Return a function: a text with `¦` for the cursor, a library, files by name -> all that is known of it."""
+
+    def ask(text: str, library: Catalog | None = reference, name: str = "main.ms", **files: str) -> Marked:
+        before, _, after = text.partition("¦")
+        folder = Folder({f"{path}.ms": said for path, said in files.items()})
+        return Marked(analyse(Source(before + after, name), library, files=folder), len(before))
+
+    return ask
+
+
+@pytest.fixture
+def edited() -> Callable[..., str]:
+    """Return a function: a text and edits of it -> the text after them."""
+
+    def ask(text: str, edits: Iterable[Edit]) -> str:
+        for edit in sorted(edits, key=lambda edit: edit.span, reverse=True):
+            text = text[: edit.span.start] + edit.text + text[edit.span.end :]
+        return text
+
+    return ask

@@ -1,0 +1,26 @@
+"""A script -> the files that it uses, as links."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from mlmg_lang.analysis import Analysis
+from mlmg_lang.parsing import syntax
+from mlmg_lang.pieces import all_of
+from mlmg_lang.source import Span
+
+
+@dataclass(frozen=True, slots=True)
+class Link:
+    """A path in a script, and the name of the file that it leads to."""
+
+    span: Span
+    file: str
+
+
+def document_links(analysis: Analysis) -> tuple[Link, ...]:
+    """Return the paths of a script, in the order of the text; those that lead nowhere are reported elsewhere."""
+    made = analysis.made
+    named = made.gathered.used.named
+    paths = (item.path for item in all_of(made.pieces, "defining") if isinstance(item, syntax.Use))
+    return tuple(Link(made.places(path.span), named[path.span]) for path in paths if path.span in named)

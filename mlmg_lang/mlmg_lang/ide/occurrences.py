@@ -1,0 +1,301 @@
+"""The names in a script and in the files that it uses: where each stands, and what it stands for.
+
+A script is asked statement by statement, and what does not hold a name is not looked at: there may be very many.
+Statements are kept with addresses (see `pieces`); what is given out has offsets.
+"""
+
+from __future__ import annotations
+
+import re
+from bisect import bisect_right
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from enum import StrEnum
+from typing import Final
+from unicodedata import normalize
+
+from mlmg_lang.analysis import Analysis, InPieces
+from mlmg_lang.parsing import syntax
+from mlmg_lang.parsing.build_syntax import name_from_token
+from mlmg_lang.parsing.structure import SUB, is_sub
+from mlmg_lang.parsing.tokenize import tokenize
+from mlmg_lang.parsing.tokens import NAMES
+from mlmg_lang.planning.names import Kind, Names
+from mlmg_lang.source import Source, Span
+from mlmg_lang.spelling import folded, normal
+
+
+class Sort(StrEnum):
+    """What a name stands for; `UNKNOWN`: for nothing, as far as that can be told."""
+
+    DEFINITION = "definition"
+    PARAMETER = "parameter"
+    MOTION = "motion"
+    TAG = "tag"
+    GRAPH = "graph"
+    SUB = "sub"
+    FILE = "file"
+    UNKNOWN = "unknown"
+
+
+RENAMED: Final = frozenset({Sort.DEFINITION, Sort.PARAMETER})
+"""What a script itself gives names to."""
+
+
+@dataclass(frozen=True, slots=True)
+class Symbol:
+    """What a name stands for.
+
+    Attributes
+    ----------
+    name : in NFC; of a library, as that spells it; of a file, its path as written.
+    owner : of a parameter, the definition that it belongs to.
+    """
+
+    sort: Sort
+    name: str
+    owner: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Occurrence:
+    """A name where it stands.
+
+    Attributes
+    ----------
+    declares : whether it gets its meaning here.
+    label : whether it says which parameter an argument is for.
+    use : the use of a definition that it is the name of, with addresses.
+    """
+
+    span: Span
+    symbol: Symbol
+    declares: bool = False
+    label: bool = False
+    use: syntax.Reference | syntax.Call | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """A stretch of a file; offsets count from the beginning of that."""
+
+    file: str
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class Statement:
+    """A statement that holds no others.
+
+    Attributes
+    ----------
+    item : with addresses. further : what makes offsets of them. text : of the file that it stands in.
+    """
+
+    item: syntax.Item
+    further: int
+    source: Source
+
+    def at(self, span: Span) -> Span:
+        """Return where something of it is."""
+        return Span(span.start + self.further, span.end + self.further)
+
+
+def place_of(source: Source, span: Span) -> Place:
+    """Return where a span is, counted in its own file."""
+    file, base = source.file(span.start)
+    return Place(file.name, Span(span.start - base, span.end - base))
+
+
+def occurrence_at(analysis: Analysis, offset: int) -> Occurrence | None:
+    """Return the name that an offset is in or at an end of; of two that touch, the one that begins there."""
+    found = [
+        one
+        for statement in statements_at(analysis.made, offset)
+        for one in names_in(statement, analysis)
+        if one.span.start <= offset <= one.span.end
+    ]
+    return max(found, key=lambda one: (one.span.start, -one.span.end), default=None)
+
+
+def occurrences_of(analysis: Analysis, symbol: Symbol) -> Iterator[Occurrence]:
+    """Yield where something is named, in the order of the text, then in the files that are used."""
+    last: syntax.Item | None = None
+    for statement in _statements_naming(analysis.made, symbol):
+        if statement.item is not last:
+            last = statement.item
+            yield from (one for one in names_in(statement, analysis) if one.symbol == symbol)
+
+
+def names_in(statement: Statement, analysis: Analysis) -> Iterator[Occurrence]:
+    """Yield the names in a statement, those too of one that could not be read."""
+    reader = _Reader(analysis.made.gathered.definitions.lets, analysis.question.names, statement)
+    return reader.item(statement.item)
+
+
+# --- statements ------------------------------------------------------------------------------------------
+
+
+def statements_at(made: InPieces, offset: int) -> list[Statement]:
+    """Return the statements that hold no others and that an offset is in or at an end of, in the order of the text."""
+    items, further = _items_at(made, offset)
+    return [Statement(item, further, made.source) for item in _touching(items, offset - further)]
+
+
+def _items_at(made: InPieces, offset: int) -> tuple[Sequence[syntax.Item], int]:
+    """Return the items among which those at an offset are, and what makes offsets of their addresses."""
+    starts = made.places.starts
+    if offset <= starts[-1]:
+        number = min(bisect_right(starts, offset), len(made.pieces)) - 1
+        piece = made.pieces[number]
+        return piece.items, starts[number] - piece.address
+    further = starts[-1] + 1 - made.places.files.start
+    scripts = (*made.gathered.used.earlier, *made.gathered.used.scripts)
+    address = offset - further
+    return next((one.items for one in scripts if one.span.start <= address <= one.span.end), ()), further
+
+
+def _touching(items: Sequence[syntax.Item], address: int) -> Iterator[syntax.Item]:
+    """Yield the statements at an address, those in blocks too."""
+    after = bisect_right(items, address, key=lambda item: item.span.start)
+    for item in items[max(after - 2, 0) : after]:
+        if address <= item.span.end:
+            if isinstance(item, syntax.Repeat):
+                yield from _touching(item.body, address)
+            elif isinstance(item, syntax.Choose):
+                for branch in item.branches:
+                    yield from _touching(branch.body, address)
+            else:
+                yield item
+
+
+def _statements_naming(made: InPieces, symbol: Symbol) -> Iterator[Statement]:
+    """Yield the statements that may name something, some of them several times in a row."""
+    base = 0
+    for file in (made.source, *made.source.used):
+        for hit in _hits(file.text, symbol):
+            yield from statements_at(made, base + hit)
+        base += len(file.text) + 1
+
+
+def _hits(text: str, symbol: Symbol) -> Iterable[int]:
+    """Return where a name may stand in a text; everywhere if its letters cannot be found so."""
+    own = symbol.sort in RENAMED
+    seen = normalize("NFC", text if own else text.casefold())
+    if len(seen) != len(text):
+        return range(len(text) + 1)
+    letters = [f"\\\\{re.escape(sign)}" if sign in '"\\' else re.escape(sign) for sign in _letters(symbol, own)]
+    return (found.start() for found in re.finditer(("" if own else "[-_]*").join(letters), seen))
+
+
+def _letters(symbol: Symbol, own: bool) -> str:
+    return symbol.name if own else folded(symbol.name)
+
+
+# --- what names stand for --------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, slots=True)
+class _Reader:
+    """Reads the names of a statement."""
+
+    lets: Mapping[str, syntax.Let]
+    names: Names | None
+    statement: Statement
+
+    def item(self, item: syntax.Item) -> Iterator[Occurrence]:
+        match item:
+            case syntax.Let():
+                yield from self._let(item)
+            case syntax.Use(path):
+                yield self._one(path, Symbol(Sort.FILE, path.text))
+            case syntax.End(graph):
+                yield self._one(graph, self._graph(graph))
+            case syntax.Broken():
+                yield from self._broken(item)
+            case _:
+                yield from self._uses(item, frozenset(), "")
+
+    def _let(self, let: syntax.Let) -> Iterator[Occurrence]:
+        owner = normal(let.name.text)
+        yield self._one(let.name, Symbol(Sort.DEFINITION, owner), declares=True)
+        for parameter in let.parameters or ():
+            name = normal(parameter.name.text)
+            yield self._one(parameter.name, Symbol(Sort.PARAMETER, name, owner), declares=True)
+            if parameter.default is not None:
+                yield from self._uses(parameter.default, frozenset(), "")
+        own = frozenset(normal(parameter.name.text) for parameter in let.parameters or ())
+        yield from self._uses(let.command, own, owner)
+
+    def _uses(self, node: syntax.Node, own: frozenset[str], owner: str) -> Iterator[Occurrence]:
+        """Yield the names in commands and expressions; `own`: the parameters of the definition that they are in."""
+        for part in syntax.walk(node):
+            match part:
+                case syntax.Reference(name) | syntax.Call(name):
+                    yield self._used(part, name, own, owner)
+                    yield from self._labels(part)
+                case syntax.Qualified(graph):
+                    yield self._one(graph, self._graph(graph))
+                case syntax.Command(duration=syntax.Name() as name) | syntax.Wait(syntax.Name() as name):
+                    known = normal(name.text) in own
+                    yield self._one(name, Symbol(Sort.PARAMETER if known else Sort.UNKNOWN, normal(name.text), owner))
+
+    def _used(
+        self, use: syntax.Reference | syntax.Call, name: syntax.Name, own: frozenset[str], owner: str
+    ) -> Occurrence:
+        word = normal(name.text)
+        if word in own:
+            return self._one(name, Symbol(Sort.PARAMETER, word, owner))
+        if word in self.lets:
+            return self._one(name, Symbol(Sort.DEFINITION, word), use=use)
+        return self._one(name, self._graph(name) if isinstance(use, syntax.Call) else self._motion(name))
+
+    def _labels(self, use: syntax.Reference | syntax.Call) -> Iterator[Occurrence]:
+        """Yield the names of arguments."""
+        owner = normal(use.name.text)
+        let = self.lets.get(owner)
+        known = {normal(parameter.name.text) for parameter in (let.parameters if let else None) or ()}
+        for argument in use.arguments if isinstance(use, syntax.Call) else ():
+            if argument.name is not None and normal(argument.name.text) in known:
+                symbol = Symbol(Sort.PARAMETER, normal(argument.name.text), owner)
+                yield self._one(argument.name, symbol, label=True)
+
+    def _broken(self, item: syntax.Broken) -> Iterator[Occurrence]:
+        """Yield the names of a statement that could not be read; which is whose parameter, is not known."""
+        text = self.statement.source.slice(self.statement.at(item.span))
+        for token in tokenize(Source(text)):
+            if token.type in NAMES:
+                span = Span(token.span.start + item.span.start, token.span.end + item.span.start)
+                name = name_from_token(token)
+                yield self._one(syntax.Name(name.text, name.quoted, name.sound, span), self._any(name))
+
+    def _any(self, name: syntax.Name) -> Symbol:
+        if normal(name.text) in self.lets:
+            return Symbol(Sort.DEFINITION, normal(name.text))
+        found = self._motion(name)
+        return self._graph(name) if found.sort is Sort.UNKNOWN and self.names is not None else found
+
+    def _graph(self, name: syntax.Name) -> Symbol:
+        if is_sub(name):
+            return Symbol(Sort.SUB, SUB)
+        graph = None if self.names is None else self.names.graph(name.text)
+        if self.names is not None and graph is None:
+            return Symbol(Sort.UNKNOWN, normal(name.text))
+        return Symbol(Sort.GRAPH, graph or normal(name.text))
+
+    def _motion(self, name: syntax.Name) -> Symbol:
+        places = () if self.names is None else self.names.places(name.text)
+        match = self.names.find_unqualified(places[0], name.text) if self.names is not None and places else None
+        if match is None:
+            return Symbol(Sort.UNKNOWN, normal(name.text))
+        return Symbol(Sort.MOTION if match.entry.kind is Kind.MOTION else Sort.TAG, match.entry.name)
+
+    def _one(
+        self,
+        name: syntax.Name,
+        symbol: Symbol,
+        declares: bool = False,
+        label: bool = False,
+        use: syntax.Reference | syntax.Call | None = None,
+    ) -> Occurrence:
+        return Occurrence(self.statement.at(name.span), symbol, declares, label, use)
