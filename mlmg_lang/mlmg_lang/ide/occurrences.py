@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 from bisect import bisect_right
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 from typing import Final
@@ -109,10 +109,11 @@ def place_of(source: Source, span: Span) -> Place:
 
 def occurrence_at(analysis: Analysis, offset: int) -> Occurrence | None:
     """Return the name that an offset is in or at an end of; of two that touch, the one that begins there."""
+    read = reader_of(analysis)
     found = [
         one
         for statement in statements_at(analysis.made, offset)
-        for one in names_in(statement, analysis)
+        for one in read(statement)
         if one.span.start <= offset <= one.span.end
     ]
     return max(found, key=lambda one: (one.span.start, -one.span.end), default=None)
@@ -120,17 +121,20 @@ def occurrence_at(analysis: Analysis, offset: int) -> Occurrence | None:
 
 def occurrences_of(analysis: Analysis, symbol: Symbol) -> Iterator[Occurrence]:
     """Yield where something is named, in the order of the text, then in the files that are used."""
-    last: syntax.Item | None = None
-    for statement in _statements_naming(analysis.made, symbol):
+    read, last = reader_of(analysis), None
+    # A parameter is named in its definition, and where that is used.
+    hint = Symbol(Sort.DEFINITION, symbol.owner) if symbol.sort is Sort.PARAMETER else symbol
+    for statement in _statements_naming(analysis.made, hint):
         if statement.item is not last:
             last = statement.item
-            yield from (one for one in names_in(statement, analysis) if one.symbol == symbol)
+            yield from (one for one in read(statement) if one.symbol == symbol)
 
 
-def names_in(statement: Statement, analysis: Analysis) -> Iterator[Occurrence]:
-    """Yield the names in a statement, those too of one that could not be read."""
-    reader = _Reader(analysis.made.gathered.definitions.lets, analysis.question.names, statement)
-    return reader.item(statement.item)
+def reader_of(analysis: Analysis) -> Callable[[Statement], Iterator[Occurrence]]:
+    """Return what yields the names in a statement, those too of one that could not be read."""
+    lets, names = analysis.made.gathered.definitions.lets, analysis.question.names
+    known: dict[str, Symbol] = {}
+    return lambda statement: _Reader(lets, names, known, statement).item(statement.item)
 
 
 # --- statements ------------------------------------------------------------------------------------------
@@ -184,12 +188,37 @@ def _hits(text: str, symbol: Symbol) -> Iterable[int]:
     seen = normalize("NFC", text if own else text.casefold())
     if len(seen) != len(text):
         return range(len(text) + 1)
-    letters = [f"\\\\{re.escape(sign)}" if sign in '"\\' else re.escape(sign) for sign in _letters(symbol, own)]
-    return (found.start() for found in re.finditer(("" if own else "[-_]*").join(letters), seen))
+    name = symbol.name if own else folded(symbol.name)
+    letters = [f"\\\\{re.escape(sign)}" if sign in '"\\' else re.escape(sign) for sign in name]
+    spelled = ("" if own else "[-_]*").join(letters)
+    found = (one.start() for one in re.finditer(rf"{spelled}(?!\w|-\w)", seen))
+    # What stands before is looked at afterwards: an expression that begins with letters is found far sooner.
+    return (at for at in found if not _in_name(seen[max(at - 2, 0) : at]))
 
 
-def _letters(symbol: Symbol, own: bool) -> str:
-    return symbol.name if own else folded(symbol.name)
+def _in_name(before: str) -> bool:
+    """Return whether what stands behind two characters goes on with a name."""
+    return before.endswith("_") or before.rstrip("-")[-1:].isalnum()
+
+
+def _naming(node: syntax.Node) -> Iterator[syntax.Node]:
+    """Yield the nodes of a command or an expression that may hold names, as `syntax.walk` does, but sooner."""
+    waiting = [node]
+    while waiting:
+        part = waiting.pop()
+        match part:
+            case syntax.Reference() | syntax.Wait():
+                yield part
+            case syntax.Command(motion) | syntax.Qualified(motion=motion):
+                yield part
+                waiting.append(motion)
+            case syntax.Call(arguments=arguments):
+                yield part
+                waiting.extend(argument.value for argument in reversed(arguments))
+            case syntax.With(operands) | syntax.And(operands) | syntax.Or(operands):
+                waiting.extend(reversed(operands))
+            case syntax.Group(inner) | syntax.Not(inner):
+                waiting.append(inner)
 
 
 # --- what names stand for --------------------------------------------------------------------------------
@@ -197,10 +226,11 @@ def _letters(symbol: Symbol, own: bool) -> str:
 
 @dataclass(frozen=True, slots=True)
 class _Reader:
-    """Reads the names of a statement."""
+    """Reads the names of a statement. `known`: what has been found out of those of the library."""
 
     lets: Mapping[str, syntax.Let]
     names: Names | None
+    known: dict[str, Symbol]
     statement: Statement
 
     def item(self, item: syntax.Item) -> Iterator[Occurrence]:
@@ -229,9 +259,11 @@ class _Reader:
 
     def _uses(self, node: syntax.Node, own: frozenset[str], owner: str) -> Iterator[Occurrence]:
         """Yield the names in commands and expressions; `own`: the parameters of the definition that they are in."""
-        for part in syntax.walk(node):
+        for part in _naming(node):
             match part:
-                case syntax.Reference(name) | syntax.Call(name):
+                case syntax.Reference(name):
+                    yield self._used(part, name, own, owner)
+                case syntax.Call(name):
                     yield self._used(part, name, own, owner)
                     yield from self._labels(part)
                 case syntax.Qualified(graph):
@@ -250,12 +282,12 @@ class _Reader:
             return self._one(name, Symbol(Sort.DEFINITION, word), use=use)
         return self._one(name, self._graph(name) if isinstance(use, syntax.Call) else self._motion(name))
 
-    def _labels(self, use: syntax.Reference | syntax.Call) -> Iterator[Occurrence]:
+    def _labels(self, use: syntax.Call) -> Iterator[Occurrence]:
         """Yield the names of arguments."""
         owner = normal(use.name.text)
         let = self.lets.get(owner)
         known = {normal(parameter.name.text) for parameter in (let.parameters if let else None) or ()}
-        for argument in use.arguments if isinstance(use, syntax.Call) else ():
+        for argument in use.arguments:
             if argument.name is not None and normal(argument.name.text) in known:
                 symbol = Symbol(Sort.PARAMETER, normal(argument.name.text), owner)
                 yield self._one(argument.name, symbol, label=True)
@@ -284,6 +316,11 @@ class _Reader:
         return Symbol(Sort.GRAPH, graph or normal(name.text))
 
     def _motion(self, name: syntax.Name) -> Symbol:
+        if name.text not in self.known:
+            self.known[name.text] = self._looked_up(name)
+        return self.known[name.text]
+
+    def _looked_up(self, name: syntax.Name) -> Symbol:
         places = () if self.names is None else self.names.places(name.text)
         match = self.names.find_unqualified(places[0], name.text) if self.names is not None and places else None
         if match is None:
