@@ -36,13 +36,20 @@ def offset_from_position(source: Source, position: EditorPosition, encoding: Enc
     """
     if position.line >= len(source.line_starts):
         return len(source.text)
-    start = source.line_starts[position.line]
+    line = _line(source, position.line)
+    return source.line_starts[position.line] + index_in_line(line, position.character, encoding)
+
+
+def index_in_line(line: str, character: int, encoding: Encoding) -> int:
+    """Return which code point of a line without its end an editor means; its end, if it has not so many."""
+    if encoding == "utf-32" or line.isascii():
+        return min(character, len(line))
     units = 0
-    for offset, character in enumerate(_line(source, position.line), start=start):
-        units += _units(character, encoding)
-        if units > position.character:
-            return offset
-    return start + len(_line(source, position.line))
+    for index, one in enumerate(line):
+        units += _units(one, encoding)
+        if units > character:
+            return index
+    return len(line)
 
 
 def range_from_span(source: Source, span: Span, encoding: Encoding) -> tuple[EditorPosition, EditorPosition]:

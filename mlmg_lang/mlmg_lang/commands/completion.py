@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import argparse
 import sys
-from importlib import import_module
 
 from mlmg_lang.commands.console import DONE
 from mlmg_lang.commands.version import VersionAction
@@ -41,14 +40,14 @@ def run(arguments: argparse.Namespace) -> int:
 
 def _mlmg() -> argparse.ArgumentParser:
     """Return one parser of all subcommands; to run one of them, only that one's is made."""
-    from mlmg_lang.commands.mlmg import SUBCOMMANDS
+    from mlmg_lang.commands.mlmg import SUBCOMMANDS, module_of
 
     parser = argparse.ArgumentParser(prog="mlmg")
     parser.add_argument("--version", action=VersionAction, nargs=0, help="show the version and leave")
     commands = parser.add_subparsers()
     for name, text in SUBCOMMANDS.items():
         subparser = commands.add_parser(name, help=text)
-        import_module(f"mlmg_lang.commands.{name}").add_arguments(subparser)
+        module_of(name).add_arguments(subparser)
         _tell_files(subparser)
     return parser
 

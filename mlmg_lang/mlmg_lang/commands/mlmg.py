@@ -6,6 +6,7 @@ import argparse
 import sys
 from collections.abc import Sequence
 from importlib import import_module
+from typing import Any
 
 from mlmg_lang.commands.console import (
     DONE,
@@ -17,7 +18,7 @@ from mlmg_lang.commands.console import (
 )
 from mlmg_lang.commands.version import VersionAction
 
-# Subcommand -> what it does. The module of the same name is imported when it is called.
+# Subcommand -> what it does. Its module is imported when it is called.
 SUBCOMMANDS = {
     "build": "build a library of motions from clips and a configuration",
     "info": "tell what is in a built library",
@@ -27,8 +28,12 @@ SUBCOMMANDS = {
     "explain": "tell what a script will do and why, as a tree, JSON or a flowchart",
     "view": "look at a motion: a player in the browser, a picture, a GIF",
     "repl": "converse with a character: each command is played on and answered at once",
+    "lsp": "serve editors: what the compiler knows, by the language server protocol",
     "completion": "write what completes commands, options and files in a shell",
 }
+
+# The language server stands above this package, which does not know it but by name.
+_ELSEWHERE = {"lsp": "mlmg_lsp.command"}
 
 _DESCRIPTION = """\
 Motion Script commands human motion. A script is played with the command mlmgc; mlmg does the rest.
@@ -72,8 +77,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
     return WRONG_USAGE
 
 
+def module_of(name: str) -> Any:
+    """Return the module of a subcommand: its docstring, `add_arguments` and `run` are the command."""
+    return import_module(_ELSEWHERE.get(name, f"mlmg_lang.commands.{name}"))
+
+
 def _run(name: str, words: Sequence[str]) -> int:
-    module = import_module(f"mlmg_lang.commands.{name}")
+    module = module_of(name)
     parser = argparse.ArgumentParser(
         prog=f"mlmg {name}",
         formatter_class=argparse.RawDescriptionHelpFormatter,

@@ -1,0 +1,73 @@
+"""Serve editors by the language server protocol: diagnostics, completion, formatting, fixes.
+
+Editors start it themselves and speak to it over standard input and output; docs/editors.md says how. With an address,
+each client that connects there has a server of its own.
+
+examples:
+  mlmg lsp
+  mlmg lsp --library my.mlmg
+  mlmg lsp --tcp 127.0.0.1:4711
+"""
+
+from __future__ import annotations
+
+import argparse
+
+from mlmg_lang.commands.console import DONE, UsageError, add_use_option
+
+_LOOPBACK = ("127.0.0.1", "localhost", "::1")
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare the command's arguments."""
+    way = parser.add_mutually_exclusive_group()
+    way.add_argument("--stdio", action="store_true", help="over standard input and output, as without an option")
+    way.add_argument("--tcp", metavar="HOST:PORT", help="wait for clients at an address of this machine")
+    way.add_argument("--ws", metavar="HOST:PORT", help="the same, over web sockets")
+    parser.add_argument(
+        "--library",
+        metavar="L.mlmg",
+        help="the library of all scripts, whatever a client or an mlmg.toml says; demo is the demo library",
+    )
+    add_use_option(parser)
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Serve until the client ends it; return 1 if it left without saying so."""
+    import logging
+
+    from mlmg_lsp import transports
+    from mlmg_lsp.libraries import Shelf
+    from mlmg_lsp.server import build_server
+    from mlmg_lsp.workspace import Settings
+
+    # It tells of each request that is cancelled, with a traceback.
+    logging.getLogger("pygls").setLevel(logging.CRITICAL)
+    settings, shelf = Settings(arguments.library, tuple(arguments.allow_use)), Shelf()
+
+    def build() -> transports.Server:
+        return build_server(settings, shelf)
+
+    if arguments.tcp is None and arguments.ws is None:
+        return transports.serve_stdio(build)
+    host, port = _address(arguments.tcp or arguments.ws)
+    serve = transports.serve_ws if arguments.tcp is None else transports.serve_tcp
+    serve(build, host, port)
+    return DONE
+
+
+def _address(text: str) -> tuple[str, int]:
+    """Return host and port.
+
+    Raises
+    ------
+    UsageError
+        If it is no address of this machine that only this machine can reach: who connects can read files.
+    """
+    host, _, port = text.rpartition(":")
+    host = host.strip("[]") or _LOOPBACK[0]
+    if not (port.isascii() and port.isdigit() and int(port) < 1 << 16):
+        raise UsageError(f"expected an address as 127.0.0.1:4711, found {text!r}")
+    if host not in _LOOPBACK:
+        raise UsageError(f"{host}: only this machine may connect; expected one of {', '.join(_LOOPBACK)}")
+    return host, int(port)

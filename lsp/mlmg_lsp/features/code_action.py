@@ -1,0 +1,80 @@
+"""textDocument/codeAction and codeAction/resolve: the edits that the compiler offers, one by one and all at once."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from functools import partial
+from typing import Final
+
+from lsprotocol import types
+
+from mlmg_lang.diagnostics import Diagnostic, Fix
+from mlmg_lang.fixing import fix_all
+from mlmg_lang.front_end import analyse_again
+from mlmg_lang.source import Source, Span
+from mlmg_lsp.convert import diagnostic_of, edits_between, range_of, span_of, workspace_edit
+from mlmg_lsp.documents import Snapshot
+
+QUICK_FIX: Final = types.CodeActionKind.QuickFix
+FIX_ALL: Final = types.CodeActionKind.SourceFixAll
+
+
+def code_action(snapshot: Snapshot, params: types.CodeActionParams) -> list[types.CodeAction]:
+    """Return what could be done about a place."""
+    only = [str(getattr(kind, "value", kind)) for kind in params.context.only or ()]
+    span = span_of(snapshot.analysis.source, params.range, snapshot.client.encoding)
+    kinds: Sequence[tuple[str, Callable[[], Iterator[types.CodeAction]]]] = (
+        (QUICK_FIX.value, lambda: _fixes(snapshot, span)),
+        (FIX_ALL.value, lambda: _fix_all(snapshot)),
+    )
+    return [action for kind, found in kinds if not only or _is_asked_for(kind, only) for action in found()]
+
+
+def resolve(snapshot: Snapshot, action: types.CodeAction) -> types.CodeAction:
+    """Return an action with its edit."""
+    if action.edit is None:
+        action.edit = _edit_of_all(snapshot)
+    return action
+
+
+def _is_asked_for(kind: str, only: Sequence[str]) -> bool:
+    return any(kind == one or kind.startswith(f"{one}.") for one in only)
+
+
+def _fixes(snapshot: Snapshot, span: Span) -> Iterator[types.CodeAction]:
+    """Yield the edits of the diagnostics that a stretch touches, the likeliest of each first."""
+    length = len(snapshot.analysis.source.text)
+    for one in snapshot.analysis.diagnostics:
+        own = one.span or Span(0, 0)
+        if own.start <= span.end and own.end >= span.start and own.end <= length:
+            yield from (_fix(snapshot, one, fix) for fix in one.fixes if fix.span.end <= length)
+
+
+def _fix(snapshot: Snapshot, one: Diagnostic, fix: Fix) -> types.CodeAction:
+    place = range_of(snapshot.analysis.source, fix.span, snapshot.client.encoding)
+    return types.CodeAction(
+        title=fix.title[:1].upper() + fix.title[1:],
+        kind=QUICK_FIX,
+        diagnostics=[diagnostic_of(snapshot, one)],
+        is_preferred=True if fix.safe and fix is one.fixes[0] else None,
+        edit=workspace_edit(snapshot, [types.TextEdit(place, fix.replacement)]),
+    )
+
+
+def _fix_all(snapshot: Snapshot) -> Iterator[types.CodeAction]:
+    """Yield the one action that applies all edits that are safe, if there are any."""
+    if not any(fix.safe for one in snapshot.analysis.diagnostics for fix in one.fixes):
+        return
+    edit = None if snapshot.client.resolves_edits else _edit_of_all(snapshot)
+    yield types.CodeAction("Fix all that is sure to be meant", kind=FIX_ALL, edit=edit, data={"uri": snapshot.uri})
+
+
+def _edit_of_all(snapshot: Snapshot) -> types.WorkspaceEdit:
+    source = snapshot.analysis.source
+    fixed = fix_all(source, snapshot.analysis.diagnostics, partial(_diagnosed, snapshot))
+    return workspace_edit(snapshot, edits_between(source, fixed.source.text, snapshot.client.encoding))
+
+
+def _diagnosed(snapshot: Snapshot, source: Source) -> tuple[Source, Sequence[Diagnostic]]:
+    again = analyse_again(snapshot.analysis, source)
+    return again.source, again.diagnostics

@@ -1,0 +1,134 @@
+"""textDocument/completion and completionItem/resolve."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import TYPE_CHECKING, Any, Final
+
+from lsprotocol import types
+
+from mlmg_lang.ide.completion import Completion, Offers, Surroundings, What, complete
+from mlmg_lang.ide.fuzzy import matching
+from mlmg_lang.ide.here import state_before, tokens_around
+from mlmg_lang.planning import flow
+from mlmg_lang.planning.names import Names
+from mlmg_lsp.convert import offset_of, range_of
+from mlmg_lsp.documents import Snapshot
+from mlmg_lsp.nothing import NoFits, Nothing
+
+if TYPE_CHECKING:
+    from mlmg_runtime.library import Library
+
+MOST_SENT: Final = 100
+"""So many, the best; a client asks again when more has been written."""
+_KINDS: Final[Mapping[What, types.CompletionItemKind]] = {
+    What.MOTION: types.CompletionItemKind.Value,
+    What.TAG: types.CompletionItemKind.EnumMember,
+    What.GRAPH: types.CompletionItemKind.Class,
+    What.DEFINITION: types.CompletionItemKind.Function,
+    What.PARAMETER: types.CompletionItemKind.Variable,
+    What.WORD: types.CompletionItemKind.Keyword,
+    What.UNIT: types.CompletionItemKind.Unit,
+}
+_SNIPPETS: Final[Mapping[str, str]] = {
+    "with": "with $0",
+    "for": "for ${1:3} ${2|sec,ms,min,frames,cycles|}$0",
+    "wait": "wait ${1:2} ${2|sec,ms,min,frames,cycles|}$0",
+    "let": "let ${1:name} = $0",
+    "repeat": "repeat ${1:2} {\n\t$0\n}",
+    "choose": "choose {\n\t| $1\n\t| $0\n}",
+}
+
+
+def completion(snapshot: Snapshot, params: types.CompletionParams) -> types.CompletionList:
+    """Return what could be written at a place, the best first."""
+    source, client = snapshot.analysis.source, snapshot.client
+    offset = offset_of(source, params.position, client.encoding)
+    span, offered = complete(tokens_around(snapshot.analysis, offset), offset, _surroundings(snapshot, offset))
+    word = source.text[span.start : offset].lstrip('"')
+    found = matching(word, offered, lambda one: one.name)
+    place = range_of(source, span, client.encoding)
+    written = source.text[span.start : span.end]
+    items = [_item(snapshot, one, rank, place, written) for rank, one in enumerate(found[:MOST_SENT])]
+    return types.CompletionList(is_incomplete=len(found) > MOST_SENT, items=items)
+
+
+def resolve(snapshot: Snapshot, item: types.CompletionItem) -> types.CompletionItem:
+    """Return a completion with what there is to read of it."""
+    data = item.data if isinstance(item.data, Mapping) else {}
+    lines = [] if snapshot.shelved is None else list(_documentation(snapshot.shelved.library, data))
+    if lines:
+        item.documentation = types.MarkupContent(types.MarkupKind.Markdown, "\n\n".join(lines))
+    return item
+
+
+def _item(snapshot: Snapshot, one: Completion, rank: int, place: types.Range, written: str) -> types.CompletionItem:
+    snippet = _SNIPPETS.get(one.text) if snapshot.client.snippets and one.what is What.WORD else None
+    return types.CompletionItem(
+        label=one.name,
+        kind=_KINDS[one.what],
+        detail=_detail(one),
+        sort_text=f"{rank:04}",
+        # What is compared with it begins with the quote where one is written.
+        filter_text=one.text if written.startswith('"') else None,
+        text_edit=types.TextEdit(place, snippet or one.text),
+        insert_text_format=types.InsertTextFormat.Snippet if snippet else None,
+        data={"uri": snapshot.uri, "name": one.name, "what": one.what.value, "graph": one.graph},
+    )
+
+
+def _detail(one: Completion) -> str:
+    """Return a few words that stand beside it in the list."""
+    if one.graph is None:
+        return one.says or one.what.value
+    n_motions = f", {len(one.motions)} motions" if one.what is What.TAG else ""
+    return f"{one.what.value} on {one.graph}{n_motions}"
+
+
+# --- against what ---
+
+
+def _surroundings(snapshot: Snapshot, offset: int) -> Surroundings:
+    """Return what a text is completed against; without a library, its own definitions and the language's words."""
+    definitions = snapshot.analysis.definitions
+    if snapshot.shelved is None:
+        names = Names(Nothing())
+        return Surroundings(names, definitions, flow.unknown(names), Offers(names, NoFits()))
+    names = snapshot.shelved.names
+    return Surroundings(names, definitions, state_before(snapshot.analysis, offset, names), snapshot.shelved.offers)
+
+
+# --- what there is to read ---
+
+
+def _documentation(library: Library, data: Mapping[str, Any]) -> Iterator[str]:
+    name, graph = data.get("name"), data.get("graph")
+    match data.get("what"):
+        case What.MOTION if graph in library.graphs and name in library.by_name[graph].index:
+            yield from _of_motion(library, str(name))
+        case What.TAG if graph in library.graphs:
+            yield from _of_tag(library, str(graph), str(name))
+        case What.GRAPH if name in library.graphs:
+            yield from _of_graph(library, str(name))
+
+
+def _of_motion(library: Library, motion: str) -> Iterator[str]:
+    n_frames = library.n_frames(motion)
+    yield f"**{motion}**: {n_frames / library.frame_rate:.1f} s, {n_frames} frames"
+    on = [graph for graph in library.graphs if motion in library.by_name[graph].index]
+    yield "\n".join(f"- {graph}: {', '.join(library.tags(graph, motion)) or 'no tags'}" for graph in on)
+
+
+def _of_tag(library: Library, graph: str, tag: str) -> Iterator[str]:
+    motions = [motion for motion in library.motions(graph) if tag in library.tags(graph, motion)]
+    yield f"**{tag}** on {graph}: {len(motions)} motion{'' if len(motions) == 1 else 's'}"
+    seconds = ((motion, library.n_frames(motion) / library.frame_rate) for motion in motions[:10])
+    more = f"\n- and {len(motions) - 10} more" if len(motions) > 10 else ""
+    yield "\n".join(f"- {motion}, {length:.1f} s" for motion, length in seconds) + more
+
+
+def _of_graph(library: Library, graph: str) -> Iterator[str]:
+    own = library.by_name[graph]
+    parent = f", below {own.parent}" if own.parent else ""
+    yield f"**{graph}**: {len(own.motions)} motions{parent}"
+    yield "joints: " + ", ".join(library.skeleton.names[joint] for joint in own.joints)

@@ -1,0 +1,86 @@
+"""The protocol as pygls has it, but for texts, which are kept by `documents`, and for how it ends."""
+
+from __future__ import annotations
+
+import json
+import logging
+from typing import TYPE_CHECKING, Any
+
+from lsprotocol import types
+from pygls.exceptions import (
+    JsonRpcException,
+    JsonRpcInvalidParams,
+    JsonRpcInvalidRequest,
+    JsonRpcServerNotInitialized,
+)
+from pygls.protocol import LanguageServerProtocol, lsp_method
+
+if TYPE_CHECKING:
+    from mlmg_lsp.server import MotionScriptServer
+
+_log = logging.getLogger(__name__)
+
+
+class Protocol(LanguageServerProtocol):
+    """Hands messages on. pygls's own copies of texts are left out: Unicode's line ends would put edits elsewhere."""
+
+    _server: MotionScriptServer
+
+    def receive(self, body: bytes | str) -> None:
+        """Handle a message. One that cannot be understood is passed over; if it asks for an answer, it is told so."""
+        try:
+            raw = json.loads(body)
+        except ValueError as error:
+            _log.warning("a message that is no JSON was passed over: %s", error)
+            return
+        if not isinstance(raw, dict):
+            _log.warning("a message that is no object was passed over")
+            return
+        asking = (raw.get("id"), raw.get("method"))
+        try:
+            self.handle_message(self.structure_message(raw))
+        except Exception as error:
+            _log.warning("a message that is not as it should be was passed over: %s", error)
+            self._refuse(asking, error)
+
+    def _refuse(self, asking: tuple[Any, Any], error: Exception) -> None:
+        number, method = asking
+        if isinstance(number, int | str) and method is not None:
+            known = error if isinstance(error, JsonRpcException) else JsonRpcInvalidParams(str(error))
+            self._send_response(number, None, known.to_response_error())
+
+    def _handle_request(self, msg_id: Any, method_name: str, params: Any) -> None:
+        if self._workspace is None and method_name != types.INITIALIZE:
+            error: JsonRpcException = JsonRpcServerNotInitialized("`initialize` comes first")
+        elif self._workspace is not None and method_name == types.INITIALIZE:
+            error = JsonRpcInvalidRequest("`initialize` has come before")
+        else:
+            super()._handle_request(msg_id, method_name, params)
+            return
+        self._send_response(msg_id, None, error.to_response_error())
+
+    def _handle_cancel_notification(self, msg_id: Any) -> None:
+        future = self._request_futures.pop(msg_id, None)
+        if future is not None:
+            future.cancel()
+
+    @lsp_method(types.TEXT_DOCUMENT_DID_OPEN)
+    def lsp_text_document__did_open(self, params: types.DidOpenTextDocumentParams) -> None:
+        """Take in a text."""
+        self._server.opened(params)
+
+    @lsp_method(types.TEXT_DOCUMENT_DID_CHANGE)
+    def lsp_text_document__did_change(self, params: types.DidChangeTextDocumentParams) -> None:
+        """Edit a text."""
+        self._server.changed(params)
+
+    @lsp_method(types.TEXT_DOCUMENT_DID_CLOSE)
+    def lsp_text_document__did_close(self, params: types.DidCloseTextDocumentParams) -> None:
+        """Let go of a text."""
+        self._server.closed(params)
+
+    @lsp_method(types.EXIT)
+    def lsp_exit(self, *_: object) -> None:  # type: ignore[override]
+        """End; in order, if `shutdown` has come before."""
+        self._server.orderly = self._shutdown
+        self._server.ended.set()

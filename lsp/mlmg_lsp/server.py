@@ -1,0 +1,340 @@
+"""The server of one client: what is to be done with each message, and by which feature it is answered."""
+
+from __future__ import annotations
+
+import asyncio
+import os
+import sys
+from collections.abc import Callable
+from contextlib import suppress
+from functools import partial
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any, Final
+
+from lsprotocol import types
+from pygls.exceptions import JsonRpcContentModified, JsonRpcInternalError
+from pygls.lsp.server import LanguageServer
+
+from mlmg_lang.libraries import SETTINGS
+from mlmg_lsp.client import client_from
+from mlmg_lsp.documents import Document, Documents, Snapshot, Superseded, path_of
+from mlmg_lsp.features import FEATURES, RESOLVING, answer_named
+from mlmg_lsp.libraries import Shelf
+from mlmg_lsp.progress import Bar
+from mlmg_lsp.protocol import Protocol
+from mlmg_lsp.work import off_loop
+from mlmg_lsp.workspace import Settings, Workspace, folders_of
+from mlmg_runtime.errors import MlmgError
+
+_SECTION: Final = "mlmg"
+_WATCHED: Final = ("**/*.ms", "**/*.mlmg", "**/library.toml", f"**/{SETTINGS}")
+_LOOKED_FOR_S: Final = 3.0
+"""So often it is looked whether the client is still there, if it has said which process it is."""
+_NO_LIBRARY: Final = (
+    "No library is named, so names are not checked: set `library` in an mlmg.toml beside or above the script, "
+    "or in the settings of the editor; `demo` is the demo library."
+)
+
+
+class MotionScriptServer(LanguageServer):
+    """Serves one client.
+
+    Attributes
+    ----------
+    ended : set when the client has ended it, or is no longer there. orderly : whether it has said that it would.
+    """
+
+    protocol: Protocol
+
+    def __init__(self, settings: Settings, shelf: Shelf) -> None:
+        """Take the settings of the command, and the libraries that are open in this process."""
+        super().__init__("mlmg lsp", version("mlmg"), protocol_cls=Protocol)
+        self.ended = asyncio.Event()
+        self.orderly = False
+        self.folders = Workspace(settings, shelf)
+        self.documents = Documents(lambda document: self.folders.files(document, self.documents), self._publish)
+        self._said: set[str] = set()
+        self._tasks: set[asyncio.Future[Any]] = set()
+
+    # --- as a transport sees it ---
+
+    def connect(self, send: Callable[[bytes], object], headers: bool) -> None:
+        """Take what sends a message."""
+        self.protocol.set_writer(_Writer(send), headers)
+
+    def receive(self, body: bytes | str) -> None:
+        """Take a message; one that is not well-formed is passed over."""
+        self.protocol.receive(body)
+
+    def leave(self) -> None:
+        """Let go of all."""
+        self.documents.close_all()
+        for task in list(self._tasks):
+            task.cancel()
+
+    def report_server_error(self, error: Exception, source: Any) -> None:
+        """Write a failure of our own into the client's log; what a client asks for in vain is no failure."""
+        if isinstance(error, JsonRpcInternalError):
+            self.window_log_message(types.LogMessageParams(types.MessageType.Error, f"{error.message}\n{error.data}"))
+
+    # --- the beginning ---
+
+    def begin(self, params: types.InitializeParams) -> None:
+        """Take in what the client says of itself."""
+        self.documents.client = client_from(params.capabilities)
+        for uri in folders_of(params):
+            self.folders.add(uri)
+        self.folders.set_client(params.initialization_options)
+        if params.process_id is not None and sys.platform != "win32":
+            self._soon(self._watch_client(params.process_id))
+
+    def begun(self, _params: types.InitializedParams) -> None:
+        """Get ready, and ask the client for what it can be asked for."""
+        self._soon(self.documents.warm())
+        if self.documents.client.watches:
+            self._soon(self._ask_to_watch())
+        if self.documents.client.configuration:
+            self._soon(self._ask_for_settings())
+
+    async def _ask_to_watch(self) -> None:
+        watchers = [types.FileSystemWatcher(pattern) for pattern in _WATCHED]
+        options = types.DidChangeWatchedFilesRegistrationOptions(watchers)
+        method = types.WORKSPACE_DID_CHANGE_WATCHED_FILES
+        await self.client_register_capability_async(
+            types.RegistrationParams([types.Registration("watched", method, options)])
+        )
+
+    async def _ask_for_settings(self) -> None:
+        items = [types.ConfigurationItem(section=_SECTION)]
+        found = await self.workspace_configuration_async(types.ConfigurationParams(items))
+        if found and found[0] is not None:
+            self.set_settings(found[0])
+
+    async def _watch_client(self, process: int) -> None:
+        while not self.ended.is_set():
+            try:
+                os.kill(process, 0)
+            except ProcessLookupError:
+                self.ended.set()
+            except PermissionError:
+                pass  # it is there, and another user's
+            await asyncio.sleep(_LOOKED_FOR_S)
+
+    # --- texts ---
+
+    def opened(self, params: types.DidOpenTextDocumentParams) -> None:
+        """Take in a text."""
+        self._find_library(self.documents.open(params.text_document))
+
+    def changed(self, params: types.DidChangeTextDocumentParams) -> None:
+        """Edit a text, and look again at those that use it."""
+        document = self.documents.change(params)
+        if document is not None and document.path is not None:
+            self._used_changed(document.path)
+
+    def saved(self, params: types.DidSaveTextDocumentParams) -> None:
+        """Look whether a library is another by now: not all clients tell of that."""
+        document = self.documents.get(params.text_document.uri)
+        if document is not None:
+            self._find_library(document)
+
+    def closed(self, params: types.DidCloseTextDocumentParams) -> None:
+        """Let go of a text, with what was said of it."""
+        uri = params.text_document.uri
+        self.documents.close(uri)
+        if not self.documents.client.pulls:
+            self.text_document_publish_diagnostics(types.PublishDiagnosticsParams(uri, []))
+        path = path_of(uri)
+        if path is not None:
+            self._used_changed(path)
+
+    def _used_changed(self, path: Path) -> None:
+        """Look again at the texts that use a file."""
+        users = list(self.documents.users(path))
+        for document in users:
+            self.documents.analyse(document, afresh=True)
+        if users:
+            self._ask_to_pull()
+
+    # --- libraries and settings ---
+
+    def settings_changed(self, params: types.DidChangeConfigurationParams) -> None:
+        """Take the settings that the client sends; one that can be asked for them may send none."""
+        if self.documents.client.configuration:
+            self._soon(self._ask_for_settings())
+        else:
+            self.set_settings(params.settings)
+
+    def set_settings(self, settings: Any) -> None:
+        """Take the settings of the client."""
+        before = self.folders.settings
+        self.folders.set_client(settings)
+        if self.folders.settings != before:
+            self._look_again()
+            for document in self.documents.all():
+                self.documents.reconsider(document)
+
+    def files_changed(self, params: types.DidChangeWatchedFilesParams) -> None:
+        """Look again at what files that have changed have to do with."""
+        paths = [path for change in params.changes if (path := path_of(change.uri)) is not None]
+        if any(path.suffix != ".ms" for path in paths):
+            self._look_again()
+        for path in paths:
+            if path.suffix == ".ms":
+                self._used_changed(path)
+        if any(change.type == types.FileChangeType.Created for change in params.changes):
+            self._found_missing()
+
+    def folders_changed(self, params: types.DidChangeWorkspaceFoldersParams) -> None:
+        """Open and close folders."""
+        for folder in params.event.added:
+            self.folders.add(folder.uri)
+        for folder in params.event.removed:
+            self.folders.remove(folder.uri)
+        self._look_again()
+
+    def _found_missing(self) -> None:
+        """Look again at texts that use a file which was not there."""
+        for document in self.documents.all():
+            if document.analysis is not None and not document.analysis.definitions.complete:
+                self.documents.analyse(document, afresh=True)
+        self._ask_to_pull()
+
+    def _look_again(self) -> None:
+        for document in self.documents.all():
+            self._find_library(document)
+
+    def _find_library(self, document: Document) -> None:
+        if document.finding is not None:
+            document.finding.cancel()
+        document.finding = self._soon(self._find(document))
+
+    async def _find(self, document: Document) -> None:
+        bar = Bar(self, self.documents.client.progress)
+        try:
+            shelved = await self.folders.find(document, bar.report, lambda: bar.begin("Loading the library"))
+            if shelved is None:
+                self._say_once(types.MessageType.Info, _NO_LIBRARY)
+            else:
+                self._said.clear()
+        except (MlmgError, OSError) as error:
+            shelved = None
+            self._say_once(types.MessageType.Warning, f"The library cannot be used, so names are not checked: {error}")
+        finally:
+            bar.end()
+        is_another = shelved is not document.shelved
+        document.shelved = shelved
+        document.found.set()
+        if is_another and document.begun:
+            self.documents.analyse(document, afresh=True)
+            self._ask_to_pull()
+
+    def _say_once(self, kind: types.MessageType, message: str) -> None:
+        if message not in self._said:
+            self._said.add(message)
+            self.window_show_message(types.ShowMessageParams(kind, message))
+
+    # --- diagnostics ---
+
+    async def _publish(self, document: Document) -> None:
+        """Tell the client what there is to say of a text, if it does not ask for that."""
+        client = self.documents.client
+        if client.pulls or document.analysis is None:
+            return
+        snapshot = Snapshot(document.uri, document.version, document.analysis, document.shelved, client)
+        from mlmg_lsp.convert import diagnostics_of
+
+        found = await off_loop(lambda: diagnostics_of(snapshot))
+        self.text_document_publish_diagnostics(
+            types.PublishDiagnosticsParams(document.uri, found, version=snapshot.version)
+        )
+
+    def _ask_to_pull(self) -> None:
+        """Let a client that asks for diagnostics ask again."""
+        client = self.documents.client
+        if client.pulls and client.refreshes:
+            self._soon(self.workspace_diagnostic_refresh_async(None))
+
+    # --- requests ---
+
+    async def snapshot(self, uri: str) -> Snapshot:
+        """Return an open text with all that is known of it.
+
+        Raises
+        ------
+        JsonRpcContentModified
+            If the text is edited before that is known, or is not open.
+        """
+        try:
+            return await self.documents.snapshot(uri)
+        except Superseded as error:
+            raise JsonRpcContentModified(str(error)) from None
+
+    def _soon(self, work: Any) -> asyncio.Task[Any]:
+        """Begin some work that goes on by itself; a client that does not do as asked is no failure of it."""
+
+        async def done() -> None:
+            with suppress(JsonRpcContentModified, ConnectionError):
+                await work
+
+        task = asyncio.ensure_future(done())
+        self._tasks.add(task)
+        task.add_done_callback(self._tasks.discard)
+        return task
+
+
+class _Writer:
+    """What pygls sends by."""
+
+    def __init__(self, send: Callable[[bytes], object]) -> None:
+        self._send = send
+
+    def write(self, data: bytes | str) -> None:
+        self._send(data.encode("utf-8") if isinstance(data, str) else data)
+
+    def close(self) -> None:
+        """Do nothing: transports close what they have opened."""
+
+
+def build_server(settings: Settings, shelf: Shelf) -> MotionScriptServer:
+    """Return a server with all its features, for one client."""
+    server = MotionScriptServer(settings, shelf)
+    told: tuple[tuple[str, Callable[[Any], None]], ...] = (
+        (types.INITIALIZE, server.begin),
+        (types.INITIALIZED, server.begun),
+        (types.TEXT_DOCUMENT_DID_SAVE, server.saved),
+        (types.WORKSPACE_DID_CHANGE_CONFIGURATION, server.settings_changed),
+        (types.WORKSPACE_DID_CHANGE_WATCHED_FILES, server.files_changed),
+        (types.WORKSPACE_DID_CHANGE_WORKSPACE_FOLDERS, server.folders_changed),
+    )
+    for method, take in told:
+        server.feature(method)(partial(take))  # pygls writes on what it is given, which methods do not let it do
+    for method, options, name in FEATURES:
+        server.feature(method, options)(_of_text(server, name))
+    for method, name in RESOLVING:
+        server.feature(method)(_of_item(server, name))
+    return server
+
+
+def _of_text(server: MotionScriptServer, name: str) -> Callable[[Any], Any]:
+    """Return what answers a request about a text, off the thread that reads messages."""
+
+    async def handler(params: Any) -> Any:
+        snapshot = await server.snapshot(params.text_document.uri)
+        return await off_loop(lambda: answer_named(name)(snapshot, params))
+
+    return handler
+
+
+def _of_item(server: MotionScriptServer, name: str) -> Callable[[Any], Any]:
+    """Return what adds to an item that was answered before; it says itself of which text it is."""
+
+    async def handler(item: Any) -> Any:
+        uri = item.data.get("uri") if isinstance(item.data, dict) else None
+        if not isinstance(uri, str):
+            return item
+        snapshot = await server.snapshot(uri)
+        return await off_loop(lambda: answer_named(name)(snapshot, item))
+
+    return handler

@@ -1,0 +1,185 @@
+"""The ways over which messages come: standard input and output, TCP, web sockets. Each client has a server."""
+
+from __future__ import annotations
+
+import asyncio
+import os
+import re
+import sys
+from asyncio import StreamReader
+from collections.abc import Callable
+from contextlib import suppress
+from threading import Thread
+from typing import TYPE_CHECKING, BinaryIO, Final, Protocol
+
+from mlmg_lang.commands.console import DONE, WRONG_CONTENT, UsageError, tell
+
+if TYPE_CHECKING:
+    from websockets.asyncio.server import ServerConnection
+
+_LENGTH: Final = re.compile(rb"content-length:\s*(\d+)\s*", re.IGNORECASE)
+_MOST_READ: Final = 1 << 30
+_CHUNK: Final = 1 << 16
+
+
+class Server(Protocol):
+    """What serves one client.
+
+    Attributes
+    ----------
+    ended : set when the client has ended it, or is no longer there. orderly : whether it has said that it would.
+    """
+
+    ended: asyncio.Event
+    orderly: bool
+
+    def connect(self, send: Callable[[bytes], object], headers: bool) -> None:
+        """Take what sends a message."""
+
+    def receive(self, body: bytes | str) -> None:
+        """Take a message; one that is not well-formed is passed over."""
+
+    def leave(self) -> None:
+        """Let go of all."""
+
+
+def serve_stdio(build: Callable[[], Server]) -> int:
+    """Serve over standard input and output until the client ends it or is gone; return the exit code."""
+    output, sys.stdout = sys.stdout, sys.stderr  # what is printed by mistake is no message
+    return asyncio.run(_serve_pipes(build, sys.stdin.fileno(), output.buffer))
+
+
+async def _serve_pipes(build: Callable[[], Server], incoming: int, outgoing: BinaryIO) -> int:
+    server, reader = build(), StreamReader()
+
+    def send(message: bytes) -> None:
+        try:
+            outgoing.write(message)
+            outgoing.flush()
+        except (OSError, ValueError):
+            server.ended.set()
+
+    server.connect(send, True)
+    # Nothing can interrupt a thread that waits for input; this one ends with the process.
+    Thread(target=_feed, args=(incoming, reader, asyncio.get_running_loop()), daemon=True).start()
+    await _until_ended(server, _read_all(server, reader))
+    return DONE if server.orderly else WRONG_CONTENT
+
+
+def _feed(incoming: int, reader: StreamReader, loop: asyncio.AbstractEventLoop) -> None:
+    with suppress(RuntimeError, OSError, ValueError):
+        # Not by way of `sys.stdin`, whose lock this thread would still hold when the process ends.
+        while data := os.read(incoming, _CHUNK):
+            loop.call_soon_threadsafe(reader.feed_data, data)
+        loop.call_soon_threadsafe(reader.feed_eof)
+
+
+async def _until_ended(server: Server, reading: object) -> None:
+    """Read messages until there are no more, or the client has said that it ends."""
+    task = asyncio.ensure_future(reading)  # type: ignore[call-overload]
+    ended = asyncio.ensure_future(server.ended.wait())
+    await asyncio.wait((task, ended), return_when=asyncio.FIRST_COMPLETED)
+    for one in (task, ended):
+        one.cancel()
+    server.leave()
+
+
+async def _read_all(server: Server, reader: StreamReader) -> None:
+    """Hand on all messages; what is not well-formed is passed over."""
+    with suppress(asyncio.IncompleteReadError, ConnectionError):
+        while not server.ended.is_set():
+            length = await _read_head(reader)
+            if length is None:
+                return
+            server.receive(await reader.readexactly(length))
+            await asyncio.sleep(0)  # what is asked begins with the text as it is now, before the next edit
+
+
+async def _read_head(reader: StreamReader) -> int | None:
+    """Return the length of the next message; None where there are no more."""
+    length = 0
+    while True:
+        try:
+            line = await reader.readuntil(b"\n")
+        except asyncio.LimitOverrunError as error:
+            await reader.readexactly(error.consumed)
+            continue
+        if found := _LENGTH.search(line):
+            length = min(int(found[1][:12]), _MOST_READ)
+        elif not line.strip() and length:
+            return length
+
+
+# --- addresses ---
+
+
+def serve_tcp(build: Callable[[], Server], host: str, port: int) -> None:
+    """Serve all who connect, until interrupted."""
+    asyncio.run(_serve_tcp(build, host, port))
+
+
+async def _serve_tcp(build: Callable[[], Server], host: str, port: int) -> None:
+    async def client(reader: StreamReader, writer: asyncio.StreamWriter) -> None:
+        server = build()
+        server.connect(writer.write, True)
+        await _until_ended(server, _read_all(server, reader))
+        with suppress(ConnectionError):
+            await writer.drain()
+            writer.close()
+
+    listening = await asyncio.start_server(client, host, port)
+    _tell_where("tcp", listening.sockets[0].getsockname())
+    async with listening:
+        await listening.serve_forever()
+
+
+def serve_ws(build: Callable[[], Server], host: str, port: int) -> None:
+    """Serve all who connect by web sockets, until interrupted.
+
+    Raises
+    ------
+    UsageError
+        If `websockets` is not installed.
+    """
+    try:
+        import websockets  # noqa: F401
+    except ImportError:
+        raise UsageError('--ws needs web sockets: pip install "mlmg[ws]"') from None
+    asyncio.run(_serve_ws(build, host, port))
+
+
+async def _serve_ws(build: Callable[[], Server], host: str, port: int) -> None:
+    from websockets.asyncio.server import serve
+
+    async def client(connection: ServerConnection) -> None:
+        server = build()
+        outgoing: asyncio.Queue[bytes] = asyncio.Queue()
+        server.connect(outgoing.put_nowait, False)
+        sending = asyncio.ensure_future(_send_all(connection, outgoing))
+        await _until_ended(server, _receive_all(server, connection))
+        sending.cancel()
+
+    async with serve(client, host, port, max_size=_MOST_READ) as listening:
+        _tell_where("ws", next(iter(listening.sockets)).getsockname())
+        await listening.serve_forever()
+
+
+async def _send_all(connection: ServerConnection, outgoing: asyncio.Queue[bytes]) -> None:
+    from websockets.exceptions import ConnectionClosed
+
+    with suppress(ConnectionClosed):
+        while True:
+            await connection.send((await outgoing.get()).decode("utf-8"))  # text: clients in browsers want no bytes
+
+
+async def _receive_all(server: Server, connection: ServerConnection) -> None:
+    from websockets.exceptions import ConnectionClosed
+
+    with suppress(ConnectionClosed):
+        async for message in connection:
+            server.receive(message)
+            await asyncio.sleep(0)
+
+
+def _tell_where(way: str, address: tuple[object, ...]) -> None:
+    tell(f"mlmg lsp: serving on {way}://{address[0]}:{address[1]}")

@@ -1,0 +1,131 @@
+"""The folders of a client and its settings -> which library each text has, and which files it can use."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from mlmg_lang.libraries import DEMO, Progress, find_library
+from mlmg_lsp.documents import Document, Documents, OpenFiles, path_of
+from mlmg_lsp.libraries import Shelf, Shelved
+from mlmg_lsp.work import off_loop
+
+if TYPE_CHECKING:
+    from lsprotocol import types
+
+    from mlmg_lang.definitions.gather import Files
+
+
+@dataclass(frozen=True, slots=True)
+class Settings:
+    """What is set by options of the command, or by the client.
+
+    Attributes
+    ----------
+    library : the path of a library, from the folder that a script is in the workspace by; or `demo`.
+    allowed : folders outside, from which scripts may use files.
+    """
+
+    library: str | None = None
+    allowed: tuple[str, ...] = ()
+
+    def with_those_of(self, client: Any) -> Settings:
+        """Return settings with those of a client, if it has sent any; what is not as it should be is passed over."""
+        own = client.get("mlmg", client) if isinstance(client, Mapping) else {}
+        if not isinstance(own, Mapping):
+            return self
+        library, allowed = own.get("library"), own.get("allowUse")
+        folders = tuple(map(str, allowed)) if isinstance(allowed, list) else ()
+        return Settings(library if isinstance(library, str) and library else None, folders)
+
+    def over(self, others: Settings) -> Settings:
+        """Return settings in which these come before others."""
+        return Settings(self.library or others.library, (*self.allowed, *others.allowed))
+
+
+class Workspace:
+    """The folders that are open in a client.
+
+    Attributes
+    ----------
+    given : the settings of the command. settings : with those of the client.
+    """
+
+    def __init__(self, given: Settings, shelf: Shelf) -> None:
+        """Take the settings of the command, and the libraries that are open."""
+        self.given = given
+        self.settings = given
+        self.shelf = shelf
+        self._roots: dict[str, Path] = {}
+
+    def set_client(self, settings: Any) -> None:
+        """Take the settings of the client."""
+        self.settings = self.given.over(Settings().with_those_of(settings))
+
+    def add(self, uri: str) -> None:
+        """Open a folder."""
+        path = path_of(uri)
+        if path is not None:
+            self._roots[uri] = path
+
+    def remove(self, uri: str) -> None:
+        """Close a folder."""
+        self._roots.pop(uri, None)
+
+    def place_of(self, document: Document) -> Path:
+        """Return the path of a text, or where one without would be."""
+        if document.path is not None:
+            return document.path
+        return next(iter(self._roots.values()), Path.cwd()) / "untitled.ms"
+
+    def files(self, document: Document, documents: Documents) -> Files:
+        """Return what finds the files that a text uses."""
+        from mlmg_lang.script_files import used_files
+
+        found = used_files(self.place_of(document), self.settings.allowed)
+        return OpenFiles(replace(found, script=document.name), documents.text_of)
+
+    async def find(self, document: Document, progress: Progress, loading: Callable[[], object]) -> Shelved | None:
+        """Return the library of a text, opened; None if nothing names one.
+
+        Parameters
+        ----------
+        progress : told, in another thread, how far the demo library is built.
+        loading : called before a library is opened that is not open yet.
+
+        Raises
+        ------
+        mlmg_runtime.errors.MlmgError
+            If what names it, or the library itself, is not as it should be.
+        OSError
+            If a file cannot be read.
+        """
+        place, option = self.place_of(document), self._option(document)
+        path = await off_loop(lambda: find_library(place, option, progress))
+        if path is None:
+            return None
+        if not self.shelf.has(path):
+            loading()
+        return await self.shelf.get(path)
+
+    def _option(self, document: Document) -> Path | str | None:
+        """Return the library that is set, as a path from the folder that a text is in the workspace by."""
+        named = self.settings.library
+        if named is None or named == DEMO:
+            return named
+        if self.given.library is not None:
+            return Path.cwd() / named
+        place = self.place_of(document)
+        own = [root for root in self._roots.values() if place.is_relative_to(root)]
+        return max(own, key=lambda root: len(root.parts), default=place.parent) / named
+
+
+def folders_of(params: types.InitializeParams) -> list[str]:
+    """Return the URIs of the folders that a client begins with."""
+    if params.workspace_folders:
+        return [folder.uri for folder in params.workspace_folders]
+    if params.root_uri:
+        return [params.root_uri]
+    return [Path(params.root_path).absolute().as_uri()] if params.root_path else []

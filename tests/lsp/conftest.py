@@ -1,0 +1,172 @@
+"""A client of the language server: real processes, JSON-RPC over their standard input and output."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import suppress
+from pathlib import Path
+from queue import Queue
+from threading import Thread
+from typing import Any, BinaryIO
+
+import pytest
+
+from mlmg_runtime.library import Library
+
+WAIT_S = 60.0
+"""After so long without a message that is waited for, a test fails."""
+
+
+class Client:
+    """An editor, as far as the server can tell."""
+
+    def __init__(self, process: subprocess.Popen[bytes]) -> None:
+        assert process.stdin is not None
+        assert process.stdout is not None
+        self.process = process
+        self._stdin = process.stdin
+        self._messages: Queue[Any] = Queue()
+        self._passed_over: list[Any] = []
+        self._number = 0
+        self._answers: dict[str, Any] = {}
+        Thread(target=self._read, args=(process.stdout,), daemon=True).start()
+
+    # --- messages ---
+
+    def send_raw(self, data: bytes) -> None:
+        self._stdin.write(data)
+        self._stdin.flush()
+
+    def send(self, **message: Any) -> None:
+        body = json.dumps({"jsonrpc": "2.0", **message}).encode("utf-8")
+        self.send_raw(b"Content-Length: %d\r\n\r\n%b" % (len(body), body))
+
+    def notify(self, method: str, params: Any = None) -> None:
+        self.send(method=method, params=params)
+
+    def begin(self, method: str, params: Any = None) -> int:
+        """Send a request; return its number."""
+        self._number += 1
+        self.send(id=self._number, method=method, params=params)
+        return self._number
+
+    def outcome(self, number: int) -> Any:
+        """Return the whole answer to a request."""
+        return self.wait(lambda one: one.get("id") == number and "method" not in one)
+
+    def ask(self, method: str, params: Any = None) -> Any:
+        """Return what is answered to a request."""
+        answer = self.outcome(self.begin(method, params))
+        assert "error" not in answer, answer
+        return answer["result"]
+
+    def answer_with(self, method: str, result: Any) -> None:
+        """Answer requests of the server by this."""
+        self._answers[method] = result
+
+    def wait(self, wanted: Callable[[Any], bool]) -> Any:
+        """Return the first message that is wanted, from those passed over so far on."""
+        for at, message in enumerate(self._passed_over):
+            if wanted(message):
+                return self._passed_over.pop(at)
+        while True:
+            message = self._messages.get(timeout=WAIT_S)
+            assert message is not None, f"the server has ended: {self.process.wait()}"
+            if wanted(message):
+                return message
+            self._passed_over.append(message)
+
+    def wait_for(self, method: str) -> Any:
+        """Return the parameters of the next message of a method."""
+        return self.wait(lambda one: one.get("method") == method)["params"]
+
+    def rest(self) -> list[Any]:
+        """Return all messages that nothing has waited for, up to the end of the server."""
+        found = list(self._passed_over)
+        while (message := self._messages.get(timeout=WAIT_S)) is not None:
+            found.append(message)
+        return found
+
+    def close(self) -> None:
+        """Go without a word."""
+        self._stdin.close()
+
+    def _read(self, stdout: BinaryIO) -> None:
+        while head := stdout.readline():
+            length = int(head.split(b":")[1])
+            while stdout.readline().strip():
+                pass
+            message = json.loads(stdout.read(length))
+            if "method" in message and "id" in message:
+                self.send(id=message["id"], result=self._answers.get(message["method"]))
+            self._messages.put(message)
+        self._messages.put(None)
+
+    # --- what editors do ---
+
+    def initialize(self, capabilities: Mapping[str, Any] | None = None, **params: Any) -> Any:
+        given = {"processId": os.getpid(), "rootUri": None, "capabilities": capabilities or {}, **params}
+        result = self.ask("initialize", given)
+        self.notify("initialized", {})
+        return result
+
+    def open(self, uri: str, text: str, version: int = 1) -> None:
+        document = {"uri": uri, "languageId": "motion-script", "version": version, "text": text}
+        self.notify("textDocument/didOpen", {"textDocument": document})
+
+    def edit(self, uri: str, version: int, *changes: Any) -> None:
+        document = {"uri": uri, "version": version}
+        self.notify("textDocument/didChange", {"textDocument": document, "contentChanges": list(changes)})
+
+    def diagnostics(self, uri: str, version: int | None = None) -> list[Any]:
+        """Return what is next told of a text, or of one of its versions."""
+        told = self.wait(
+            lambda one: (
+                one.get("method") == "textDocument/publishDiagnostics"
+                and one["params"]["uri"] == uri
+                and version in (None, one["params"].get("version"))
+            )
+        )
+        return list(told["params"]["diagnostics"])
+
+    def ask_at(self, method: str, uri: str, line: int, character: int, **more: Any) -> Any:
+        place = {"textDocument": {"uri": uri}, "position": {"line": line, "character": character}}
+        return self.ask(f"textDocument/{method}", place | more)
+
+    def leave(self) -> int:
+        """End the server in order; return its exit code."""
+        self.ask("shutdown")
+        self.notify("exit")
+        return self.process.wait(WAIT_S)
+
+
+@pytest.fixture
+def start(tmp_path: Path, demo_library: Library) -> Iterator[Callable[..., Client]]:
+    """Return a function: options of `mlmg lsp` -> a client of a new process. Without any, the demo library is used."""
+    started: list[subprocess.Popen[bytes]] = []
+
+    def begin(*options: str) -> Client:
+        words = options or ("--library", str(demo_library.path))
+        environment = {name: value for name, value in os.environ.items() if name != "MLMG_LIBRARY"}
+        process = subprocess.Popen(
+            [sys.executable, "-m", "mlmg_lang.commands.mlmg", "lsp", *words],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            cwd=tmp_path,
+            env=environment,
+        )
+        started.append(process)
+        return Client(process)
+
+    yield begin
+    for process in started:
+        process.kill()
+        process.wait()
+        for stream in (process.stdin, process.stdout):
+            if stream is not None and not stream.closed:
+                with suppress(BrokenPipeError):
+                    stream.close()
