@@ -27,6 +27,10 @@ class Nothing:
         """Return that nothing is reached."""
         return False
 
+    def is_forbidden(self, graph: str, source: str, target: str) -> bool:
+        """Return that nothing is forbidden."""
+        return False
+
     def unlikeness(self, graph: str, one: str, other: str) -> float:
         """Return that nothing differs."""
         return 0.0
