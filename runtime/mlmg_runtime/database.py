@@ -174,6 +174,12 @@ def read_graphs(connection: sqlite3.Connection) -> list[tuple[MotionGraph, dict[
     return graphs
 
 
+def read_source(connection: sqlite3.Connection, name: str) -> str | None:
+    """Return the file of one clip, as its path from the folder of the configuration; None if there is no such clip."""
+    row = connection.execute("SELECT source FROM clip WHERE name = ?", (name,)).fetchone()
+    return None if row is None else str(row[0])
+
+
 def read_clip(connection: sqlite3.Connection, name: str, skeleton: Skeleton) -> Poses:
     """Return the poses of one clip; rotations are scaled to unit length after their storage as float32."""
     query = "SELECT n_frames, rotations, positions, checksum FROM clip WHERE name = ?"

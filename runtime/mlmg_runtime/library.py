@@ -8,7 +8,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
-from mlmg_runtime.database import read_clip, read_graphs, skeleton_from_json
+from mlmg_runtime.database import read_clip, read_graphs, read_source, skeleton_from_json
 from mlmg_runtime.library_file import open_database, read_properties
 from mlmg_runtime.motion_graph import UNREACHABLE, MotionGraph
 from mlmg_runtime.skeleton import Poses, Skeleton
@@ -92,6 +92,11 @@ class Library:
         """Return how many frames a motion's clip has."""
         graph = next(graph for graph in self.by_name.values() if motion in graph.index)
         return int(graph.n_frames[graph.index[motion]])
+
+    def source(self, motion: str) -> str | None:
+        """Return the file of a motion's clip, as its path from the folder of the configuration."""
+        with open_database(self.path) as connection:
+            return read_source(connection, motion)
 
     def poses(self, motion: str) -> Poses:
         """Return a motion's clip, read on first use."""

@@ -28,6 +28,8 @@ from mlmg_lang.spelling import joined, normal
 
 _MOST: Final = 8
 """So many names are listed."""
+_MOST_COMPARED: Final = 5_000
+"""So many pairs of motions are compared; where there are more, they stay in the order of the configuration."""
 _LONGEST: Final = 600
 """So long may the text of an expansion be, in code points."""
 
@@ -221,7 +223,7 @@ class _Teller:
         """Return motions by how like they are to what may drive a graph before, and whether that is known."""
         before = self._driving(graph, names)
         known = [one for one in before if one in names.motion_set(graph)]
-        if not known or len(motions) < 2:
+        if len(motions) < 2 or not 0 < len(known) * len(motions) <= _MOST_COMPARED:
             return motions, False
         return sorted(motions, key=lambda one: min(catalog.unlikeness(graph, other, one) for other in known)), True
 

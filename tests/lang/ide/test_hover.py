@@ -73,6 +73,12 @@ def test_a_tag_is_told_with_its_motions_by_graph_what_is_most_like_what_may_play
     assert says("let A = WALK¦", library=far)[1] == "- on `Full-Body`: `Walk_01`, `Walk_02` and `Walk_03`"
 
 
+def test_very_many_motions_stay_in_the_order_of_the_configuration(says, catalog):
+    many = catalog({"Body": {f"M{n}": ("T",) for n in range(6000)}}, {}, start="M1")
+    assert says("¦T", library=many)[1].startswith("- on `Body`: `M0`, `M1`, ")
+    assert says("¦T", library=many)[1].endswith("`M7` and 5992 more")
+
+
 def test_on_a_part_motions_are_told_by_likeness_to_what_the_command_does_above(says, reference):
     far = replace(reference, far={("Upper-Body", "Walk_01", "Talk_01"): 3.0})
     lines = says("Walk_01 with Upper-Body TALK¦", library=far)

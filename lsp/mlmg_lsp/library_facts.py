@@ -1,0 +1,92 @@
+"""A library, as what `mlmg_lang.ide` asks of one beyond its names: anatomy, transitions, and where things come from."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from mlmg_lang.ide.occurrences import Place
+from mlmg_lang.source import Source, Span
+from mlmg_runtime.building.toml_files import TomlFile, read_toml
+from mlmg_runtime.errors import MlmgError
+from mlmg_runtime.library import Library
+
+
+@dataclass(frozen=True, slots=True)
+class LibraryFacts:
+    """Answers `ide.hover.Anatomy` and `ide.definition.Origins`.
+
+    Attributes
+    ----------
+    configuration : the file that the library was built from; None if it is not known. It is read when it is asked for.
+    """
+
+    library: Library
+    configuration: Path | None
+
+    def joints(self, graph: str) -> Sequence[str]:
+        """Return the joints of a graph."""
+        return [self.library.skeleton.names[joint] for joint in self.library.by_name[graph].joints]
+
+    def transitions(self, graph: str, motion: str) -> Mapping[str, int]:
+        """Return, by motion, how many transitions of a graph lead there from a motion."""
+        own = self.library.by_name[graph]
+        index = own.index[motion]
+        leaving = own.transitions[own.first_edge[index] : own.first_edge[index + 1]]
+        numbers = np.bincount(leaving["dst_motion"], minlength=len(own.motions))
+        return dict(zip(own.motions, map(int, numbers), strict=True))
+
+    def motion(self, motion: str) -> Place | None:
+        """Return the file of a motion's clip; None if it is not there (any more)."""
+        source = self.library.source(motion)
+        if source is None or self.configuration is None:
+            return None
+        path = self.configuration.parent / source
+        return Place(str(path.resolve()), Span(0, 0)) if path.is_file() else None
+
+    def tag(self, tag: str) -> tuple[Place, ...]:
+        """Return the lines of the configuration that give a tag to motions."""
+        file = self._read()
+        tables = {} if file is None else file.document.get("tags", {})
+        keys = [
+            ("tags", graph, motion)
+            for graph, motions in (tables.items() if isinstance(tables, dict) else ())
+            for motion, tags in (motions.items() if isinstance(motions, dict) else ())
+            if isinstance(tags, list) and tag in tags
+        ]
+        return tuple(place for key in keys if (place := _place(file, key)) is not None)
+
+    def graph(self, graph: str) -> Place | None:
+        """Return the line of the configuration where a graph is described."""
+        file = self._read()
+        tables = [] if file is None else file.document.get("graph", [])
+        named = (at for at, table in enumerate(tables) if isinstance(table, dict) and table.get("name") == graph)
+        at = next(named, None)
+        return None if at is None else _place(file, ("graph", at, "name"))
+
+    def _read(self) -> TomlFile | None:
+        """Return the configuration as it is now; None if it cannot be read."""
+        try:
+            return None if self.configuration is None else read_toml(self.configuration)
+        except (MlmgError, OSError):
+            return None
+
+
+def configuration_of(library: Path) -> Path | None:
+    """Return what a library was probably built from: the file beside it that is called as it is, or `library.toml`."""
+    beside = (library.with_suffix(".toml"), library.with_name("library.toml"))
+    return next((path for path in beside if path.is_file()), None)
+
+
+def _place(file: TomlFile | None, key: tuple[str | int, ...]) -> Place | None:
+    """Return the line on which a key stands."""
+    line = None if file is None else file.lines.get(key)
+    if file is None or line is None:
+        return None
+    text = file.path.read_bytes().decode("utf-8-sig")  # with its own line ends, which count
+    starts = (*Source(text).line_starts, len(text) + 1)
+    start = starts[line - 1]
+    return Place(str(file.path.resolve()), Span(start, start + len(text[start : starts[line]].rstrip("\r\n"))))
