@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Sequence
 from itertools import islice
+from random import Random
 
 import pytest
 from hypothesis import given
@@ -109,6 +110,15 @@ def test_draws_do_not_follow_from_those_before() -> None:
 def test_a_branch_of_no_weight_is_never_drawn(weights: tuple[int, ...]) -> None:
     never = {letter for letter, weight in zip("abcd", weights, strict=False) if weight == 0}
     assert never.isdisjoint("".join(drawn(*weights, seed=seed) for seed in range(20)))
+
+
+def test_the_least_of_all_draws_takes_no_branch_without_weight_either() -> None:
+    class Least(Random):
+        def random(self) -> float:
+            return 0.0
+
+    plan = ResolvedPlan(Source(""), "Idle_01", (choose([say("a")], [say("b")], weights=[0, 1]),))
+    assert list(executed(plan, Least())) == [say("b")]
 
 
 def test_the_same_seed_gives_the_same_draws() -> None:
