@@ -2,12 +2,13 @@
 # make test    all tests
 # make lint    style and who may import whom;  make types: mypy;  make bench: measurements beside peers
 # make pictures  the pictures of the README;  make recording: the session in it;  make grammars: what editors and the docs have of the grammar
+# make vsix    the extension for VS Code
 
 PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 
-.PHONY: demo test lint types bench pictures recording grammars wheel clean
+.PHONY: demo test lint types bench pictures recording grammars vsix wheel clean
 
 demo: $(VENV)/installed
 	$(BIN)/mlmgc examples/tour.ms -o tour.bvh --report tour.json
@@ -37,6 +38,12 @@ recording: $(VENV)/installed
 
 grammars: $(VENV)/installed
 	$(BIN)/python -m mlmg_grammar.generate --docs docs
+
+# The extension for VS Code; needs node 20 or newer and npm.
+vsix:
+	mkdir -p dist
+	cd lsp/editors/vscode && npm install --no-package-lock && npm test && npm run vsix
+	@echo "install it: code --install-extension dist/motion-script.vsix"
 
 # The wheel, built and tested as it is installed, not the source tree.
 wheel: $(VENV)/test-tools

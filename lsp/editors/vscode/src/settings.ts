@@ -1,0 +1,25 @@
+import { basename, dirname, extname, join } from "node:path";
+import * as vscode from "vscode";
+
+export const LANGUAGE = "motion-script";
+
+export interface Settings {
+  readonly path: string;
+  readonly library: string;
+  readonly allowUse: readonly string[];
+}
+
+export function settings(scope?: vscode.Uri): Settings {
+  const kept = vscode.workspace.getConfiguration("mlmg", scope);
+  return {
+    path: kept.get<string>("path") || "mlmg",
+    library: kept.get<string>("library") ?? "",
+    allowUse: kept.get<string[]>("allowUse") ?? [],
+  };
+}
+
+/** The compiler, which is installed beside `mlmg`. */
+export function compiler(path: string): string {
+  const name = `mlmgc${extname(basename(path)).toLowerCase() === ".exe" ? ".exe" : ""}`;
+  return dirname(path) === "." && !path.startsWith(".") ? name : join(dirname(path), name);
+}
