@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from difflib import SequenceMatcher
 from functools import cache
 from itertools import pairwise
@@ -16,7 +16,7 @@ from mlmg_lang.parsing import syntax
 from mlmg_lang.rules import read_rule
 from mlmg_lang.source import Source, Span
 from mlmg_lsp.documents import Snapshot
-from mlmg_lsp.positions import EditorPosition, Encoding, offset_from_position, range_from_span
+from mlmg_lsp.positions import EditorPosition, Encoding, offset_from_position, range_from_span, units_in
 
 _SEVERITIES: Final = {
     Severity.ERROR: types.DiagnosticSeverity.Error,
@@ -49,9 +49,28 @@ def location_of(snapshot: Snapshot, span: Span) -> types.Location:
     """Return a place in a script, or in a file that it uses."""
     source = snapshot.analysis.source
     file, base = source.file(span.start)
-    uri = snapshot.uri if file is source or file.name == source.name else Path(file.name).absolute().as_uri()
     own = Span(span.start - base, min(span.end - base, len(file.text)))
-    return types.Location(uri, range_of(Source(file.text, file.name), own, snapshot.client.encoding))
+    place = range_of(Source(file.text, file.name), own, snapshot.client.encoding)
+    return types.Location(uri_of(snapshot, file.name), place)
+
+
+def location_of_place(snapshot: Snapshot, file: str, span: Span) -> types.Location:
+    """Return a place in a file, counted from its beginning."""
+    return types.Location(uri_of(snapshot, file), range_of(source_of(snapshot, file), span, snapshot.client.encoding))
+
+
+def uri_of(snapshot: Snapshot, file: str) -> str:
+    """Return the URI of a file: the client's own, if it is open there."""
+    if file == snapshot.analysis.source.name:
+        return snapshot.uri
+    return snapshot.opened[file][0] if file in snapshot.opened else Path(file).absolute().as_uri()
+
+
+def source_of(snapshot: Snapshot, file: str) -> Source:
+    """Return the text of a file that is open, or that an open script uses; else, no text."""
+    known = (snapshot.analysis, *snapshot.others)
+    sources = (source for one in known for source in (one.source, *one.source.used))
+    return next((Source(source.text, file) for source in sources if source.name == file), Source("", file))
 
 
 # --- diagnostics ---
@@ -115,11 +134,18 @@ def changed_lines(source: Source, after: str) -> Iterator[tuple[Span, str]]:
     old = [source.text[start:end] for start, end in pairwise(starts)]
     new = [after[start:end] for start, end in pairwise((*Source(after).line_starts, len(after)))]
     for first, last, begin, end in _differences(old, new):
-        if last - first == end - begin:
-            lines = zip(range(first, last), new[begin:end], strict=True)
-            yield from ((Span(starts[at], starts[at + 1]), line) for at, line in lines if old[at] != line)
-        else:
-            yield Span(starts[first], starts[last]), "".join(new[begin:end])
+        pairs = zip(old[first:last], new[begin:end], strict=False)
+        n_lines = next((n for n, pair in enumerate(pairs) if not _is_respaced(*pair)), min(last - first, end - begin))
+        for n in range(n_lines):
+            yield Span(starts[first + n], starts[first + n + 1]), new[begin + n]
+        if first + n_lines < last or begin + n_lines < end:
+            yield Span(starts[first + n_lines], starts[last]), "".join(new[begin + n_lines : end])
+
+
+def _is_respaced(one: str, other: str) -> bool:
+    """Return whether two lines have the same signs but for spaces, and some."""
+    signs = one.split()
+    return bool(signs) and "".join(signs) == "".join(other.split())
 
 
 def _differences(old: Sequence[str], new: Sequence[str]) -> Iterator[tuple[int, int, int, int]]:
@@ -137,8 +163,36 @@ def _differences(old: Sequence[str], new: Sequence[str]) -> Iterator[tuple[int, 
 
 def workspace_edit(snapshot: Snapshot, edits: Iterable[types.TextEdit]) -> types.WorkspaceEdit:
     """Return edits of one text; with its version, if the client knows what that is for."""
-    kept = list(edits)
+    return workspace_edits(snapshot, {snapshot.analysis.source.name: list(edits)})
+
+
+def workspace_edits(snapshot: Snapshot, by_file: Mapping[str, Sequence[types.TextEdit]]) -> types.WorkspaceEdit:
+    """Return edits of some files."""
+    by_uri = {uri_of(snapshot, file): (file, list(edits)) for file, edits in by_file.items()}
     if not snapshot.client.versioned:
-        return types.WorkspaceEdit(changes={snapshot.uri: kept})
-    document = types.OptionalVersionedTextDocumentIdentifier(snapshot.uri, snapshot.version)
-    return types.WorkspaceEdit(document_changes=[types.TextDocumentEdit(document, list(kept))])
+        return types.WorkspaceEdit(changes={uri: edits for uri, (_, edits) in by_uri.items()})
+    return types.WorkspaceEdit(
+        document_changes=[
+            types.TextDocumentEdit(
+                types.OptionalVersionedTextDocumentIdentifier(uri, _version_of(snapshot, file)), list(edits)
+            )
+            for uri, (file, edits) in by_uri.items()
+        ]
+    )
+
+
+def _version_of(snapshot: Snapshot, file: str) -> int | None:
+    """Return the version of a file, if it is open."""
+    if file == snapshot.analysis.source.name:
+        return snapshot.version
+    return snapshot.opened[file][1] if file in snapshot.opened else None
+
+
+def edit_in(snapshot: Snapshot, file: str, span: Span, text: str) -> types.TextEdit:
+    """Return an edit of a file, counted from its beginning."""
+    return types.TextEdit(range_of(source_of(snapshot, file), span, snapshot.client.encoding), text)
+
+
+def index_after(text: str) -> int:
+    """Return how long a text is as labels are counted, whatever the encoding: in UTF-16."""
+    return units_in(text, "utf-16")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import os
-from collections.abc import Awaitable, Callable, Iterator
+from collections.abc import Awaitable, Callable, Iterator, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import partial
@@ -43,6 +43,8 @@ class Snapshot:
     ----------
     version : as the client counts; None for a text that is not open.
     shelved : its library; None without one.
+    opened : all open texts, with their versions, by the names of their files.
+    others : what is known of those that are not this one.
     """
 
     uri: str
@@ -50,6 +52,8 @@ class Snapshot:
     analysis: Analysis
     shelved: Shelved | None
     client: Client
+    opened: Mapping[str, tuple[str, int]] = field(default_factory=dict)
+    others: tuple[Analysis, ...] = ()
 
 
 @dataclass(eq=False)
@@ -174,7 +178,16 @@ class Documents:
             raise Superseded(f"{uri} is not open")
         version = document.version
         analysis = await asyncio.shield(document.ready)
-        return Snapshot(uri, version, analysis, _against(analysis, document.shelved), self.client)
+        others = [one for one in self.all() if one is not document]
+        return Snapshot(
+            uri,
+            version,
+            analysis,
+            _against(analysis, document.shelved),
+            self.client,
+            {one.name: (one.uri, one.version) for one in self.all()},
+            tuple(one.analysis for one in others if one.analysis is not None and one.ready.done()),
+        )
 
     def analyse(self, document: Document, afresh: bool = False) -> None:
         """Begin to analyse a text as it is now; what was begun before stops.

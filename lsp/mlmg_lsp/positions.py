@@ -25,7 +25,7 @@ def position_from_offset(source: Source, offset: int, encoding: Encoding) -> Edi
     """Return where an offset in code points is for an editor."""
     line, column = source.position(offset)
     start = source.line_starts[line - 1]
-    return EditorPosition(line - 1, _units(source.text[start : start + column - 1], encoding))
+    return EditorPosition(line - 1, units_in(source.text[start : start + column - 1], encoding))
 
 
 def offset_from_position(source: Source, position: EditorPosition, encoding: Encoding) -> int:
@@ -46,7 +46,7 @@ def index_in_line(line: str, character: int, encoding: Encoding) -> int:
         return min(character, len(line))
     units = 0
     for index, one in enumerate(line):
-        units += _units(one, encoding)
+        units += units_in(one, encoding)
         if units > character:
             return index
     return len(line)
@@ -64,7 +64,8 @@ def _line(source: Source, line: int) -> str:
     return source.text[source.line_starts[line] : end].rstrip("\r\n")
 
 
-def _units(text: str, encoding: Encoding) -> int:
+def units_in(text: str, encoding: Encoding) -> int:
+    """Return how long a text is, in units of the encoding."""
     return (
         len(text.encode(f"{encoding}-le" if encoding != "utf-8" else encoding, "surrogatepass"))
         // (_BYTES_A_UNIT[encoding])

@@ -16,6 +16,18 @@ if TYPE_CHECKING:
 
 Answer: TypeAlias = "Callable[[Snapshot, Any], Any]"
 
+TOKEN_TYPES: Final = (
+    *("motion", "tag", "name", "graph", "definition", "parameter", "keyword", "number", "unit", "string", "comment"),
+)
+"""What a token can be, by `ide.semantics.Kind`, in the order of the legend."""
+_SHOWN_AS: Final = {"motion": "enumMember", "tag": "type", "name": "variable", "graph": "namespace"} | {
+    "definition": "function",
+    "unit": "keyword",
+}
+"""What themes of editors know them by, where that is another name."""
+DECLARATION: Final = 1
+LEGEND: Final = types.SemanticTokensLegend([_SHOWN_AS.get(one, one) for one in TOKEN_TYPES], ["declaration"])
+
 FEATURES: Final[tuple[tuple[str, Any, str], ...]] = (
     (
         types.TEXT_DOCUMENT_DIAGNOSTIC,
@@ -37,10 +49,33 @@ FEATURES: Final[tuple[tuple[str, Any, str], ...]] = (
     (
         types.TEXT_DOCUMENT_CODE_ACTION,
         types.CodeActionOptions(
-            code_action_kinds=[types.CodeActionKind.QuickFix, types.CodeActionKind.SourceFixAll], resolve_provider=True
+            code_action_kinds=[
+                types.CodeActionKind.QuickFix,
+                types.CodeActionKind.Refactor,
+                types.CodeActionKind.SourceFixAll,
+            ],
+            resolve_provider=True,
         ),
         "code_action.code_action",
     ),
+    (types.TEXT_DOCUMENT_HOVER, None, "navigation.hover"),
+    (types.TEXT_DOCUMENT_DEFINITION, None, "navigation.definition"),
+    (types.TEXT_DOCUMENT_REFERENCES, None, "navigation.references_of"),
+    (types.TEXT_DOCUMENT_DOCUMENT_HIGHLIGHT, None, "navigation.highlight"),
+    (types.TEXT_DOCUMENT_PREPARE_RENAME, None, "navigation.prepare_rename"),
+    (types.TEXT_DOCUMENT_RENAME, types.RenameOptions(prepare_provider=True), "navigation.rename_to"),
+    (types.TEXT_DOCUMENT_DOCUMENT_LINK, None, "navigation.document_link"),
+    (
+        types.TEXT_DOCUMENT_SIGNATURE_HELP,
+        types.SignatureHelpOptions(trigger_characters=["(", ","]),
+        "navigation.signature_help",
+    ),
+    (types.TEXT_DOCUMENT_DOCUMENT_SYMBOL, None, "structure.document_symbol"),
+    (types.TEXT_DOCUMENT_FOLDING_RANGE, None, "structure.folding_range"),
+    (types.TEXT_DOCUMENT_SELECTION_RANGE, None, "structure.selection_range"),
+    (types.TEXT_DOCUMENT_INLAY_HINT, None, "structure.inlay_hint"),
+    (types.TEXT_DOCUMENT_SEMANTIC_TOKENS_FULL, LEGEND, "structure.semantic_tokens"),
+    (types.TEXT_DOCUMENT_SEMANTIC_TOKENS_RANGE, LEGEND, "structure.semantic_tokens_range"),
 )
 """By method: what the client is told of it, and what answers a request about a text."""
 

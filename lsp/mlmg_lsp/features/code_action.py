@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import partial
 from typing import Final
 
@@ -11,6 +11,7 @@ from lsprotocol import types
 from mlmg_lang.diagnostics import Diagnostic, Fix
 from mlmg_lang.fixing import fix_all
 from mlmg_lang.front_end import analyse_again
+from mlmg_lang.ide import actions
 from mlmg_lang.source import Source, Span
 from mlmg_lsp.convert import diagnostic_of, edits_between, range_of, span_of, workspace_edit
 from mlmg_lsp.documents import Snapshot
@@ -23,11 +24,13 @@ def code_action(snapshot: Snapshot, params: types.CodeActionParams) -> list[type
     """Return what could be done about a place."""
     only = [str(getattr(kind, "value", kind)) for kind in params.context.only or ()]
     span = span_of(snapshot.analysis.source, params.range, snapshot.client.encoding)
-    kinds: Sequence[tuple[str, Callable[[], Iterator[types.CodeAction]]]] = (
-        (QUICK_FIX.value, lambda: _fixes(snapshot, span)),
-        (FIX_ALL.value, lambda: _fix_all(snapshot)),
+    kinds: Sequence[tuple[Sequence[str], Callable[[], Iterator[types.CodeAction]]]] = (
+        ((QUICK_FIX.value,), lambda: _fixes(snapshot, span)),
+        ([kind.value for kind in _KINDS.values()], lambda: _actions(snapshot, span)),
+        ((FIX_ALL.value,), lambda: _fix_all(snapshot)),
     )
-    return [action for kind, found in kinds if not only or _is_asked_for(kind, only) for action in found()]
+    asked = (found for names, found in kinds if any(_is_asked_for(name, only) for name in names))
+    return [one for found in asked for one in found() if _is_asked_for(str(getattr(one.kind, "value", one.kind)), only)]
 
 
 def resolve(snapshot: Snapshot, action: types.CodeAction) -> types.CodeAction:
@@ -38,7 +41,7 @@ def resolve(snapshot: Snapshot, action: types.CodeAction) -> types.CodeAction:
 
 
 def _is_asked_for(kind: str, only: Sequence[str]) -> bool:
-    return any(kind == one or kind.startswith(f"{one}.") for one in only)
+    return not only or any(kind == one or kind.startswith(f"{one}.") for one in only)
 
 
 def _fixes(snapshot: Snapshot, span: Span) -> Iterator[types.CodeAction]:
@@ -59,6 +62,27 @@ def _fix(snapshot: Snapshot, one: Diagnostic, fix: Fix) -> types.CodeAction:
         is_preferred=True if fix.safe and fix is one.fixes[0] else None,
         edit=workspace_edit(snapshot, [types.TextEdit(place, fix.replacement)]),
     )
+
+
+_KINDS: Final[Mapping[actions.Kind, types.CodeActionKind]] = {
+    actions.Kind.SUPPRESS: QUICK_FIX,
+    actions.Kind.QUALIFY: types.CodeActionKind.RefactorRewrite,
+    actions.Kind.EXTRACT: types.CodeActionKind.RefactorExtract,
+    actions.Kind.INLINE: types.CodeActionKind.RefactorInline,
+}
+
+
+def _actions(snapshot: Snapshot, span: Span) -> Iterator[types.CodeAction]:
+    """Yield what can be rewritten in a stretch, and what silences the diagnostics that are there."""
+    source, encoding = snapshot.analysis.source, snapshot.client.encoding
+    for one in actions.actions(snapshot.analysis, span):
+        edits = [types.TextEdit(range_of(source, edit.span, encoding), edit.replacement) for edit in one.edits]
+        yield types.CodeAction(
+            title=one.title[:1].upper() + one.title[1:],
+            kind=_KINDS[one.kind],
+            diagnostics=None if one.about is None else [diagnostic_of(snapshot, one.about)],
+            edit=workspace_edit(snapshot, edits),
+        )
 
 
 def _fix_all(snapshot: Snapshot) -> Iterator[types.CodeAction]:

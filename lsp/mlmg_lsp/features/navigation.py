@@ -1,0 +1,143 @@
+"""What a name is, where it is defined and used, and another name for it."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from lsprotocol import types
+from pygls.exceptions import JsonRpcInvalidRequest
+
+from mlmg_lang.ide import definition as definitions
+from mlmg_lang.ide import hover as hovers
+from mlmg_lang.ide import links, references, rename, signature
+from mlmg_lang.ide.occurrences import Place
+from mlmg_lang.source import Span
+from mlmg_lsp.convert import (
+    edit_in,
+    index_after,
+    location_of_place,
+    offset_of,
+    range_of,
+    workspace_edits,
+)
+from mlmg_lsp.documents import Snapshot
+
+if TYPE_CHECKING:
+    from mlmg_runtime.library import Library
+
+
+def hover(snapshot: Snapshot, params: types.HoverParams) -> types.Hover | None:
+    """Return what there is to say of what stands at a place."""
+    anatomy = None if snapshot.shelved is None else LibraryAnatomy(snapshot.shelved.library)
+    found = hovers.hover(snapshot.analysis, _offset(snapshot, params.position), anatomy)
+    if found is None:
+        return None
+    text = "\n\n".join(f"```motion-script\n{part.text}\n```" if part.code else part.text for part in found.parts)
+    return types.Hover(types.MarkupContent(types.MarkupKind.Markdown, text), _range(snapshot, found.span))
+
+
+@dataclass(frozen=True, slots=True)
+class LibraryAnatomy:
+    """What is told of a library beyond its names; see `ide.hover.Anatomy`."""
+
+    library: Library
+
+    def joints(self, graph: str) -> Sequence[str]:
+        """Return the joints of a graph."""
+        return [self.library.skeleton.names[joint] for joint in self.library.by_name[graph].joints]
+
+    def transitions(self, graph: str, motion: str) -> Mapping[str, int]:
+        """Return, by motion, how many transitions of a graph lead there from a motion."""
+        own = self.library.by_name[graph]
+        leaving = own.transitions[own.transitions["src_motion"] == own.index[motion]]
+        return {own.motions[at]: n for at, n in Counter(leaving["dst_motion"].tolist()).most_common()}
+
+
+def definition(snapshot: Snapshot, params: types.DefinitionParams) -> list[types.Location] | None:
+    """Return where the name at a place gets its meaning."""
+    found = definitions.definition(snapshot.analysis, _offset(snapshot, params.position))
+    return None if found is None else [_location(snapshot, place) for place in found.places]
+
+
+def references_of(snapshot: Snapshot, params: types.ReferenceParams) -> list[types.Location]:
+    """Return where the name at a place is used, in all open texts too."""
+    offset, declared = _offset(snapshot, params.position), params.context.include_declaration
+    return [
+        _location(snapshot, place)
+        for place in references.references(snapshot.analysis, offset, snapshot.others, declared)
+    ]
+
+
+def highlight(snapshot: Snapshot, params: types.DocumentHighlightParams) -> list[types.DocumentHighlight]:
+    """Return where else in a text the name at a place stands."""
+    found = references.highlights(snapshot.analysis, _offset(snapshot, params.position))
+    write, read = types.DocumentHighlightKind.Write, types.DocumentHighlightKind.Read
+    return [types.DocumentHighlight(_range(snapshot, one.span), write if one.declares else read) for one in found]
+
+
+def prepare_rename(snapshot: Snapshot, params: types.PrepareRenameParams) -> types.PrepareRenamePlaceholder:
+    """Return the name at a place.
+
+    Raises
+    ------
+    JsonRpcInvalidRequest
+        That says why it cannot be another.
+    """
+    found = rename.prepare_rename(snapshot.analysis, _offset(snapshot, params.position))
+    if isinstance(found, rename.Refusal):
+        raise JsonRpcInvalidRequest(found.why)
+    return types.PrepareRenamePlaceholder(_range(snapshot, found.span), found.name)
+
+
+def rename_to(snapshot: Snapshot, params: types.RenameParams) -> types.WorkspaceEdit:
+    """Return the edits that give the name at a place another.
+
+    Raises
+    ------
+    JsonRpcInvalidRequest
+        That says why that cannot be.
+    """
+    found = rename.rename(snapshot.analysis, _offset(snapshot, params.position), params.new_name, snapshot.others)
+    if isinstance(found, rename.Refusal):
+        raise JsonRpcInvalidRequest(found.why)
+    return workspace_edits(
+        snapshot,
+        {file: [edit_in(snapshot, file, one.span, one.text) for one in edits] for file, edits in found.items()},
+    )
+
+
+def document_link(snapshot: Snapshot, _params: types.DocumentLinkParams) -> list[types.DocumentLink]:
+    """Return the paths of a script, and where they lead."""
+    return [
+        types.DocumentLink(_range(snapshot, one.span), target=_location(snapshot, Place(one.file, Span(0, 0))).uri)
+        for one in links.document_links(snapshot.analysis)
+    ]
+
+
+def signature_help(snapshot: Snapshot, params: types.SignatureHelpParams) -> types.SignatureHelp | None:
+    """Return what the definition takes that is being used at a place."""
+    found = signature.signature_help(snapshot.analysis, _offset(snapshot, params.position))
+    if found is None:
+        return None
+    told = [
+        types.ParameterInformation(
+            (index_after(found.label[: one.start]), index_after(found.label[: one.end])), one.says
+        )
+        for one in found.parameters
+    ]
+    return types.SignatureHelp([types.SignatureInformation(found.label, parameters=told)], 0, found.active)
+
+
+def _offset(snapshot: Snapshot, position: types.Position) -> int:
+    return offset_of(snapshot.analysis.source, position, snapshot.client.encoding)
+
+
+def _range(snapshot: Snapshot, span: Span) -> types.Range:
+    return range_of(snapshot.analysis.source, span, snapshot.client.encoding)
+
+
+def _location(snapshot: Snapshot, place: Place) -> types.Location:
+    return location_of_place(snapshot, place.file, place.span)

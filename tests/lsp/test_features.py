@@ -1,0 +1,280 @@
+"""What is answered about a text, in what an editor shows."""
+
+from __future__ import annotations
+
+import random
+
+import pytest
+
+from mlmg_lang.front_end import analyse
+from mlmg_lang.source import Source
+
+URI = "untitled:Untitled-1"
+OPTIONS = {"tabSize": 4, "insertSpaces": True}
+SNIPPETS = {"textDocument": {"completion": {"completionItem": {"snippetSupport": True}}}}
+DEFINED = "# 😀\r\nlet greet(who, t = 2 sec) = who with Upper-Body WAVE for t\r\ngreet(WALK)\r\ngreet(IDLE, 3 sec)"
+
+
+@pytest.fixture
+def client(start):
+    client = start()
+    client.initialize(SNIPPETS)
+    return client
+
+
+def opened(client, text: str) -> None:
+    client.open(URI, text)
+    client.diagnostics(URI, 1)
+
+
+def applied(text: str, edits) -> str:
+    """Return a text of plain characters and LF with edits in it."""
+    lines = text.split("\n")
+    starts = [sum(len(line) + 1 for line in lines[:at]) for at in range(len(lines) + 1)]
+    for edit in sorted(edits, key=lambda one: -starts[one["range"]["start"]["line"]]):
+        begin, end = (
+            starts[edit["range"][side]["line"]] + edit["range"][side]["character"] for side in ("start", "end")
+        )
+        text = text[:begin] + edit["newText"] + text[end:]
+    return text
+
+
+# --- completion ---
+
+
+def labels(client, line: int, character: int) -> list[str]:
+    found = client.ask_at("completion", URI, line, character)
+    assert [one["sortText"] for one in found["items"]] == sorted(one["sortText"] for one in found["items"])
+    return [one["label"] for one in found["items"]]
+
+
+def test_what_fits_what_is_playing_comes_first(client):
+    opened(client, "WALK for 3 sec\n\nIDLE for 3 sec\n\n")
+    assert labels(client, 1, 0)[0] == "WALK"
+    assert labels(client, 3, 0)[0] == "IDLE"
+
+
+def test_only_what_is_valid_is_offered_and_what_has_been_written_is_taken_the_place_of(client):
+    opened(client, "😀\nWALK with Upper-Body tal for 3 sec")
+    found = client.ask_at("completion", URI, 1, 24)["items"]
+    assert found[0]["label"] == "TALK"
+    assert found[0]["textEdit"]["range"]["start"] == {"line": 1, "character": 21}
+    assert found[0]["textEdit"]["range"]["end"] == {"line": 1, "character": 24}
+    assert "WALK" not in [one["label"] for one in found]
+
+
+def test_in_a_block_what_is_playing_there_counts(client):
+    opened(client, "IDLE for 1 sec\nrepeat 2 {\nWALK for 2 sec\n\n}\n")
+    assert labels(client, 3, 0)[0] == "WALK"
+
+
+def test_words_of_the_language_are_snippets_where_the_client_fills_them_in(client):
+    opened(client, "rep\n")
+    (repeat,) = (one for one in client.ask_at("completion", URI, 0, 3)["items"] if one["label"] == "repeat")
+    assert repeat["insertTextFormat"] == 2
+    assert repeat["textEdit"]["newText"].startswith("repeat ${1:2} {")
+
+
+def test_there_is_more_to_read_of_what_is_chosen(client):
+    opened(client, "")
+    found = {one["label"]: one for one in client.ask_at("completion", URI, 0, 0)["items"]}
+    assert "Walk_01, " in client.ask("completionItem/resolve", found["WALK"])["documentation"]["value"]
+    assert "frames" in client.ask("completionItem/resolve", found["Walk_01"])["documentation"]["value"]
+    assert "joints: " in client.ask("completionItem/resolve", found["Upper-Body"])["documentation"]["value"]
+
+
+def test_without_a_library_words_and_own_definitions_are_offered(start):
+    client = start("--stdio")
+    client.initialize()
+    opened(client, "let stroll = WALK\n\n")
+    assert {"stroll", "repeat", "wait"} <= set(labels(client, 1, 0))
+
+
+# --- formatting ---
+
+
+UGLY = "WALK   for 3 sec\nIDLE for  2 sec\n\n\n\n#x\nrepeat 2 {\nIDLE for 1 sec\n}\n"
+
+
+def test_a_text_is_brought_into_canonical_form_line_by_line(client):
+    opened(client, UGLY)
+    edits = client.ask("textDocument/formatting", {"textDocument": {"uri": URI}, "options": OPTIONS})
+    formatted = applied(UGLY, edits)
+    assert formatted == "WALK for 3 sec\nIDLE for 2 sec\n\n#x\nrepeat 2 {\n    IDLE for 1 sec\n}\n"
+    assert len(edits) > 2
+
+
+def test_of_a_selection_only_its_lines_are_formatted(client):
+    opened(client, UGLY)
+    place = {"start": {"line": 1, "character": 0}, "end": {"line": 2, "character": 0}}
+    asked = {"textDocument": {"uri": URI}, "range": place, "options": OPTIONS}
+    edits = client.ask("textDocument/rangeFormatting", asked)
+    assert applied(UGLY, edits) == UGLY.replace("for  2", "for 2")
+
+
+def test_a_line_is_formatted_when_it_is_finished(client):
+    opened(client, UGLY)
+    edits = client.ask_at("onTypeFormatting", URI, 1, 0, ch="\n", options=OPTIONS)
+    assert applied(UGLY, edits) == UGLY.replace("WALK   for", "WALK for")
+
+
+def test_line_ends_stay_what_they_are(client):
+    opened(client, "WALK for 3 sec\r\nIDLE  for 2 sec\r\n")
+    (edit,) = client.ask("textDocument/formatting", {"textDocument": {"uri": URI}, "options": OPTIONS})
+    assert edit["newText"] == "IDLE for 2 sec\r\n"
+    assert edit["range"]["start"]["line"] == 1
+
+
+# --- names ---
+
+
+def test_a_name_is_told_of_with_what_the_library_knows(client):
+    opened(client, DEFINED)
+    hover = client.ask_at("hover", URI, 3, 7)
+    assert "IDLE" in hover["contents"]["value"]
+    assert hover["range"] == {"start": {"line": 3, "character": 6}, "end": {"line": 3, "character": 10}}
+    assert client.ask_at("hover", URI, 0, 0) is None
+
+
+def test_a_name_leads_to_its_definition_and_to_where_it_is_used(client):
+    opened(client, DEFINED)
+    (place,) = client.ask_at("definition", URI, 2, 1)
+    assert (place["uri"], place["range"]["start"]) == (URI, {"line": 1, "character": 4})
+    used = client.ask_at("references", URI, 2, 1, context={"includeDeclaration": False})
+    assert [one["range"]["start"]["line"] for one in used] == [2, 3]
+    assert [one["kind"] for one in client.ask_at("documentHighlight", URI, 2, 1)] == [3, 2, 2]
+
+
+def test_a_definition_is_renamed_wherever_it_is_used_and_a_motion_is_not(client):
+    opened(client, DEFINED)
+    assert client.ask_at("prepareRename", URI, 2, 1)["placeholder"] == "greet"
+    edits = client.ask_at("rename", URI, 2, 1, newName="hello")["changes"][URI]
+    assert [(one["range"]["start"]["line"], one["newText"]) for one in edits] == [(n, "hello") for n in (1, 2, 3)]
+    place = {"textDocument": {"uri": URI}, "position": {"line": 2, "character": 7}}
+    refused = client.outcome(client.begin("textDocument/rename", place | {"newName": "x"}))
+    assert "`WALK` is a tag of the library" in refused["error"]["message"]
+
+
+def test_names_are_renamed_in_the_files_that_a_script_uses_too(start, tmp_path):
+    client = start()
+    client.initialize({"workspace": {"workspaceEdit": {"documentChanges": True}}})
+    used, user = tmp_path / "used 😀.ms", (tmp_path / "user.ms").as_uri()
+    used.write_text("# 走\nlet stroll = WALK for 3 sec\n", encoding="utf-8")
+    client.open(user, 'use "used 😀.ms"\nstroll\n', version=5)
+    assert client.diagnostics(user) == []
+    (link,) = client.ask("textDocument/documentLink", {"textDocument": {"uri": user}})
+    assert link["target"] == used.as_uri()
+    changes = client.ask_at("rename", user, 1, 2, newName="amble")["documentChanges"]
+    assert {one["textDocument"]["uri"]: one["textDocument"]["version"] for one in changes} == {
+        user: 5,
+        used.as_uri(): None,
+    }
+    assert {one["edits"][0]["range"]["start"]["line"] for one in changes} == {1}
+
+
+def test_what_a_definition_takes_is_shown_while_it_is_used(client):
+    opened(client, DEFINED)
+    shown = client.ask_at("signatureHelp", URI, 3, 12)
+    assert shown["signatures"][0]["label"] == "greet(who, t = 2 sec)"
+    assert shown["activeParameter"] == 1
+
+
+def test_what_a_text_consists_of_is_told(client):
+    opened(client, DEFINED + "\r\nrepeat 2 {\r\nIDLE for 1\r\n}\r\n")
+    asked = {"textDocument": {"uri": URI}}
+    outline = client.ask("textDocument/documentSymbol", asked)
+    assert outline[0]["name"].startswith("greet")
+    (fold,) = client.ask("textDocument/foldingRange", asked)
+    assert (fold["startLine"], fold["endLine"]) == (4, 6)
+    (ranges,) = client.ask("textDocument/selectionRange", asked | {"positions": [{"line": 2, "character": 7}]})
+    assert ranges["range"] == {"start": {"line": 2, "character": 6}, "end": {"line": 2, "character": 10}}
+    place = {"start": {"line": 2, "character": 0}, "end": {"line": 3, "character": 0}}
+    assert [one["label"] for one in client.ask("textDocument/inlayHint", asked | {"range": place})] == ["who ="]
+
+
+def test_each_word_is_coloured_by_what_it_is(client):
+    opened(client, "# 😀\nlet x = WALK\nx for 3 sec\n")
+    data = client.ask("textDocument/semanticTokens/full", {"textDocument": {"uri": URI}})["data"]
+    rows = [tuple(data[at : at + 5]) for at in range(0, len(data), 5)]
+    assert rows[0][:3] == (0, 0, 4)
+    assert rows[2] == (0, 4, 1, 4, 1)
+    place = {"start": {"line": 2, "character": 0}, "end": {"line": 3, "character": 0}}
+    asked = {"textDocument": {"uri": URI}, "range": place}
+    assert client.ask("textDocument/semanticTokens/range", asked)["data"][:3] == [2, 0, 1]
+
+
+def test_commands_can_be_rewritten_and_warnings_silenced_from_the_menu(client):
+    opened(client, "let x = WALK\nx for 2 sec\nIDLE\nWALK\n")
+    place = {"start": {"line": 1, "character": 0}, "end": {"line": 1, "character": 0}}
+    asked = {"textDocument": {"uri": URI}, "range": place}
+    kinds = client.ask("textDocument/codeAction", asked | {"context": {"diagnostics": [], "only": ["refactor"]}})
+    assert "refactor.inline" in [one["kind"] for one in kinds]
+    place = {"start": {"line": 2, "character": 0}, "end": {"line": 2, "character": 0}}
+    found = client.ask("textDocument/codeAction", asked | {"range": place, "context": {"diagnostics": []}})
+    assert "Ignore `MS047` here" in [one["title"] for one in found]
+
+
+# --- edits ---
+
+BITS = (
+    *("WALK for 3 sec\n", "WLAK", "let x = WALK\n", "x\n", "repeat 2 {\n", "}\n", "with Upper-Body TALK", "( ", ")"),
+    *("\r", "\n", "\r\n", "😀", "走路", "\t", "\u2028", "\x0c", "\x85", "# c ", '"', " "),
+)
+
+
+def edit_of(draw: random.Random, text: str) -> tuple[int, int, str]:
+    """Return an edit: something is typed, taken out or pasted, or all line ends become others."""
+    start = draw.randint(0, len(text))
+    match draw.randrange(10):
+        case 0 | 1 | 2 | 3 | 4:
+            return start, start, draw.choice(BITS)
+        case 5 | 6 | 7:
+            return start, min(len(text), start + draw.randint(1, 12)), draw.choice(("", draw.choice(BITS)))
+        case 8:
+            return start, start, "".join(draw.choices(BITS, k=6))
+    plain = text.replace("\r\n", "\n").replace("\r", "\n")
+    flipped = plain.replace("\n", draw.choice(("\n", "\r\n", "\r")))
+    return 0, len(text), flipped[:1500]
+
+
+def position(text: str, offset: int, encoding: str) -> dict[str, int]:
+    """Return where an offset is, worked out in the plainest way."""
+    lines = text[:offset].replace("\r\n", "\n").replace("\r", "\n").split("\n")
+    if offset and text[offset - 1 : offset + 1] == "\r\n":
+        lines = text[: offset - 1].replace("\r\n", "\n").replace("\r", "\n").split("\n")
+    size = {"utf-8": 1, "utf-16": 2, "utf-32": 4}[encoding]
+    name = encoding if size == 1 else f"{encoding}-le"
+    return {"line": len(lines) - 1, "character": len(lines[-1].encode(name)) // size}
+
+
+@pytest.mark.parametrize(("encoding", "n_edits"), [("utf-16", 300), ("utf-8", 100), ("utf-32", 100)])
+def test_after_any_edits_diagnostics_are_those_of_a_fresh_analysis(start, demo_library, encoding, n_edits):
+    client = start()
+    client.initialize({"general": {"positionEncodings": [encoding]}})
+    draw, text = random.Random(encoding), "IDLE\r\nWALK for 2 sec\n"
+    client.open(URI, text, version=0)
+    client.diagnostics(URI, 0)
+    for version in range(1, n_edits + 1):
+        begin, end, new = edit_of(draw, text)
+        while 0 < begin < len(text) and text[begin - 1 : begin + 1] == "\r\n":
+            begin -= 1
+        while 0 < end < len(text) and text[end - 1 : end + 1] == "\r\n":
+            end += 1
+        place = {"start": position(text, begin, encoding), "end": position(text, end, encoding)}
+        text = text[:begin] + new + text[end:]
+        client.edit(URI, version, {"range": place, "text": new})
+        told = [
+            (one["code"], one["range"]["start"], one["range"]["end"], one["message"].partition("\n")[0])
+            for one in client.diagnostics(URI, version)
+        ]
+        fresh = analyse(Source(text), demo_library).diagnostics
+        assert told == [
+            (
+                one.code,
+                position(text, one.span.start, encoding),
+                position(text, one.span.end, encoding),
+                one.message.partition("\n")[0],
+            )
+            for one in fresh
+            if one.span is not None
+        ], (version, text)
