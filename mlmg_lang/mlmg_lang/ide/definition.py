@@ -6,7 +6,16 @@ from dataclasses import dataclass
 from typing import Protocol
 
 from mlmg_lang.analysis import Analysis
-from mlmg_lang.ide.occurrences import Occurrence, Place, Sort, Symbol, occurrence_at, place_of
+from mlmg_lang.ide.occurrences import (
+    Occurrence,
+    Place,
+    Sort,
+    Symbol,
+    occurrence_at,
+    place_of,
+    reader_of,
+    statements_at,
+)
 from mlmg_lang.parsing import syntax
 from mlmg_lang.source import Span
 from mlmg_lang.spelling import normal
@@ -68,13 +77,21 @@ def _declared(let: syntax.Let | None, symbol: Symbol) -> syntax.Name | None:
     return next((name for name in own if normal(name.text) == symbol.name), None)
 
 
+def _declared_beside(analysis: Analysis, found: Occurrence) -> Span | None:
+    """Return where a parameter is declared, if that is in the very statement."""
+    if found.symbol.sort is not Sort.PARAMETER:
+        return None
+    read, at = reader_of(analysis), found.span.start
+    beside = (one for statement in statements_at(analysis.made, at) for one in read(statement))
+    return next((one.span for one in beside if one.declares and one.symbol == found.symbol), None)
+
+
 def _places(analysis: Analysis, found: Occurrence, origins: Origins | None) -> tuple[Place, ...]:
     symbol = found.symbol
     match symbol.sort:
         case Sort.DEFINITION | Sort.PARAMETER:
-            span = declaration(analysis, symbol)
-            # A parameter of a definition that stands a second time is declared there alone.
-            span = found.span if span is None and found.declares else span
+            # A definition that stands a second time has parameters of its own.
+            span = _declared_beside(analysis, found) or declaration(analysis, symbol)
             return () if span is None else (place_of(analysis.source, span),)
         case Sort.FILE:
             file = used_file(analysis, found)

@@ -248,7 +248,8 @@ class _Reader:
 
     def _let(self, let: syntax.Let) -> Iterator[Occurrence]:
         owner = normal(let.name.text)
-        yield self._one(let.name, Symbol(Sort.DEFINITION, owner), declares=True)
+        # What cannot be a name is not defined.
+        yield self._one(let.name, Symbol(Sort.DEFINITION if owner in self.lets else Sort.UNKNOWN, owner), declares=True)
         for parameter in let.parameters or ():
             name = normal(parameter.name.text)
             yield self._one(parameter.name, Symbol(Sort.PARAMETER, name, owner), declares=True)
