@@ -372,5 +372,14 @@ def test_a_library_that_cannot_be_read_any_more_leaves_the_session_as_it_was(
     assert say("WALK for 1 sec").ok
 
 
+def test_white_space_may_stand_before_a_dot(say: Say) -> None:
+    assert say("  .quit").leaves
+
+
+def test_definitions_alone_are_not_asked_about(say: Say, conversation: Conversation) -> None:
+    say("let A = WALK")
+    assert not conversation.desk.unsaved
+
+
 def test_quit_leaves(say: Say) -> None:
     assert say(".quit").leaves

@@ -2,6 +2,8 @@
 
 from collections.abc import Callable
 
+import pytest
+
 import mlmg_lang
 from mlmg_lang.perform import rehearse
 from mlmg_lang.session.saving import SavedScript, script_from_session
@@ -27,33 +29,42 @@ def test_what_was_entered_is_saved_as_it_was_entered(says: Says) -> None:
     assert script.text.splitlines()[1] == "A for 2 sec  # so"
 
 
-def test_what_a_script_would_read_otherwise_is_saved_with_the_motions_that_were_taken(demo_library: Library) -> None:
-    session = Session(demo_library, seed=3)
-    # In a script every branch has to allow what comes after it; here only the one that was drawn.
-    while not session.turns:
+@pytest.fixture
+def narrowed(demo_library: Library) -> Session:
+    """Return a session whose script, as it was entered, would be an error: in it, every branch has to go on so."""
+    seed = 3
+    while True:
+        session = Session(demo_library, seed=seed)
         session.enter("choose { Idle_02 for 1 sec | Idle_01 for 1 sec }")
-        if session.stage.performer.motion("Full-Body") == "Idle_02":
-            session.undo()
-            session = Session(demo_library, seed=session.seed + 1)
-    session.enter("Upper-Body TALK for 2 sec")
-    script = script_of(session)
+        if session.stage.performer.motion("Full-Body") == "Idle_01":
+            session.enter("Upper-Body TALK for 2 sec")
+            return session
+        seed += 1
+
+
+def test_what_a_script_would_read_otherwise_is_saved_with_the_motions_that_were_taken(narrowed: Session) -> None:
+    script = script_of(narrowed)
     assert not script.as_entered
     assert script.text == "Full-Body Idle_01 for 1 sec\nUpper-Body Talk_01 for 2 sec\n"
 
 
-def test_all_kinds_of_statements_can_be_written_with_the_motions_that_were_taken(demo_library: Library) -> None:
-    session = Session(demo_library)
-    for line in (
-        "choose { Idle_02 for 1 sec | Idle_01 for 1 sec }",
-        "Music_01 once",
-        "wait 0.5 cycles",
-        "IDLE with Upper-Body TALK for 20 frames",
-        "end Upper-Body",
-        "Upper-Body TALK",
-        "wait 1.5 sec",
-    ):
-        session.enter(line)
-    script_of(session)
+def test_all_kinds_of_statements_can_be_written_with_the_motions_that_were_taken(narrowed: Session) -> None:
+    said = ("end Upper-Body", "Music_01 once", "wait 0.5 cycles", "wait 1.5 sec", "Talk_01 for 20 frames", "Idle_01")
+    for line in said:
+        assert narrowed.enter(line).n_seconds
+    script = script_of(narrowed)
+    assert not script.as_entered
+    written = script.text.splitlines()[2:]
+    assert written[:4] == ["end Upper-Body", "Full-Body Music_01 once", "wait 0.5 cycles", "wait 1.5 sec"]
+    assert [line.split()[1] for line in written[4:]] == ["Talk_01", "Idle_01"]
+
+
+def test_draws_are_those_of_the_session(demo_library: Library) -> None:
+    for seed in range(6):
+        session = Session(demo_library, seed=seed)
+        for _ in range(3):
+            session.enter("choose { Walk_01 for 1 sec | Walk_02 for 1 sec | Idle_01 for 1 sec }")
+        assert script_of(session).as_entered
 
 
 def test_nothing_played_is_no_script(session: Session, says: Says) -> None:

@@ -23,6 +23,16 @@ def test_a_command_is_played_on_from_the_present_state(says: Says) -> None:
     assert {one.graph for one in session.playing} == {"Full-Body", "Upper-Body"}
 
 
+def test_an_answer_says_how_much_motion_there_is_by_now(session: Session) -> None:
+    seconds = [session.enter(line).n_seconds for line in ("Idle_01 for 1 sec", "Idle_01 for 2 sec")]
+    assert seconds == [1.0, 3.0]
+
+
+def test_what_is_said_of_scripts_that_are_finished_is_not_said_of_entries(session: Session) -> None:
+    assert session.enter("let A = WALK").diagnostics == ()
+    assert session.enter("WALK; IDLE").diagnostics == ()
+
+
 def test_the_first_command_that_names_a_root_motion_sets_the_start(says: Says) -> None:
     assert says("Talk_01 for 1 sec").starts_in == "Talk_01"
     assert says("Walk_01 for 1 sec").starts_in == "Talk_01"
