@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
+from operator import attrgetter
 
 from mlmg_lang.analysis import Analysis, InPieces
+from mlmg_lang.diagnostics import has_errors
 from mlmg_lang.ide.rewriting import Edit
 from mlmg_lang.ide.touching import pieces_touching
 from mlmg_lang.parsing import syntax
@@ -24,7 +26,8 @@ class Inlining:
 def inlinings(analysis: Analysis, within: Span) -> Iterator[Inlining]:
     """Yield what puts in a definition that a stretch touches the name of: this one use, or all with the definition.
 
-    Nothing for definitions and uses with mistakes; nor for all uses of a script in which a statement cannot be read.
+    Nothing for definitions and uses with mistakes; nor for all uses of a script with a mistake in any definition, or with
+    a statement that cannot be read.
     """
     for piece, further in pieces_touching(analysis, within):
         for item in piece.items:
@@ -76,7 +79,7 @@ def _of_use(analysis: Analysis, use: _Use) -> Iterator[Inlining]:
 def _of_all(analysis: Analysis, let: syntax.Let) -> Iterator[Inlining]:
     made = analysis.made
     definitions = made.gathered.definitions
-    if definitions.find(let.name) is not let or any(piece.broken for piece in made.pieces):
+    if definitions.find(let.name) is not let or has_errors(made.defined) or any(map(attrgetter("broken"), made.pieces)):
         return
     edits = []
     for use in (use for piece in made.pieces for item in piece.items if item is not let for use in _uses(item)):

@@ -126,6 +126,7 @@ def test_what_is_selected_of_a_command_becomes_a_definition(
         ("let O = WALK once\nO¦", ["let O = WALK once\nWALK once"]),
         ("let X¦ = WALK\nX\nlet = )", []),
         ("let X¦ = WALK\nIDLE", []),
+        ("let X¦ = WALK\nX\nlet X = IDLE", []),
         ("let G¦(x) = x\nG(G(WALK))", []),
         ("let X = X¦ or WALK\nX", []),
         ("WA¦LK", []),
@@ -167,7 +168,7 @@ def offered(text: str, library: Catalog) -> Iterator[tuple[Analysis, Action]]:
 def test_whatever_is_chosen_plays_the_same(left_hand_always: Catalog, text: str) -> None:
     for analysis, action in offered(text, left_hand_always):
         after = analyse(Source(changed(text, action)), left_hand_always)
-        assert plain(after.resolved) == plain(analysis.resolved), changed(text, action)
+        assert analysis.resolved is None or plain(after.resolved) == plain(analysis.resolved), changed(text, action)
 
 
 @settings(max_examples=60, deadline=None)
