@@ -26,8 +26,8 @@ class Inlining:
 def inlinings(analysis: Analysis, within: Span) -> Iterator[Inlining]:
     """Yield what puts in a definition that a stretch touches the name of: this one use, or all with the definition.
 
-    Nothing for definitions and uses with mistakes; nor for all uses of a script with a mistake in any definition, or with
-    a statement that cannot be read.
+    Nothing for definitions and uses with mistakes; nor for all uses of a script with a mistake in any definition, or
+    with a statement that cannot be read.
     """
     for piece, further in pieces_touching(analysis, within):
         for item in piece.items:
