@@ -59,7 +59,7 @@ def large_library(like: Library) -> Library:
         oms, hops = draw.random((N_MOTIONS, N_MOTIONS)), np.ones((N_MOTIONS, N_MOTIONS), int)
         graphs[name] = MotionGraph(
             name, parent, own.joints, own.weights, own.window, own.sigma, own.blend, names, tags,
-            np.full(N_MOTIONS, 300), edges, oms, hops,
+            np.full(N_MOTIONS, 300), edges, np.zeros(oms.shape, bool), oms, hops,
         )  # fmt: skip
     return Library(like.path, like.skeleton, like.frame_rate, like.up, names[0], graphs, {}, ())
 

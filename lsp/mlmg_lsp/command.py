@@ -12,6 +12,7 @@ examples:
 from __future__ import annotations
 
 import argparse
+import sys
 
 from mlmg_lang.commands.console import DONE, UsageError, add_use_option
 
@@ -43,6 +44,8 @@ def run(arguments: argparse.Namespace) -> int:
 
     # It tells of each request that is cancelled, with a traceback.
     logging.getLogger("pygls").setLevel(logging.CRITICAL)
+    # The thread that reads messages gets its turn sooner beside those that work.
+    sys.setswitchinterval(0.001)
     settings, shelf = Settings(arguments.library, tuple(arguments.allow_use)), Shelf()
 
     def build() -> transports.Server:

@@ -9,7 +9,7 @@ from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from lsprotocol import types
 from pygls.uris import to_fs_path
@@ -45,6 +45,7 @@ class Snapshot:
     shelved : its library; None without one.
     opened : all open texts, with their versions, by the names of their files.
     others : what is known of those that are not this one.
+    kept : what features keep of a text from one answer to the next, by their names.
     """
 
     uri: str
@@ -54,6 +55,7 @@ class Snapshot:
     client: Client
     opened: Mapping[str, tuple[str, int]] = field(default_factory=dict)
     others: tuple[Analysis, ...] = ()
+    kept: dict[str, Any] = field(default_factory=dict)
 
 
 @dataclass(eq=False)
@@ -80,6 +82,7 @@ class Document:
     analysis: Analysis | None = None
     begun: bool = False
     stale: bool = False
+    kept: dict[str, Any] = field(default_factory=dict)
     task: asyncio.Task[None] | None = None
     finding: asyncio.Task[None] | None = None
 
@@ -187,6 +190,7 @@ class Documents:
             self.client,
             {one.name: (one.uri, one.version) for one in self.all()},
             tuple(one.analysis for one in others if one.analysis is not None and one.ready.done()),
+            document.kept,
         )
 
     def analyse(self, document: Document, afresh: bool = False) -> None:
@@ -212,8 +216,10 @@ class Documents:
     async def _analyse(self, document: Document) -> None:
         ready = document.ready
         await self.warm()
+        # Not `wait_for`, which may pass over that the task is cancelled.
         with suppress(TimeoutError):  # without its library, then
-            await asyncio.wait_for(document.found.wait(), GRACE_S)
+            async with asyncio.timeout(GRACE_S):
+                await document.found.wait()
         document.begun = True
         try:
             analysis = await off_loop(self._work(document))

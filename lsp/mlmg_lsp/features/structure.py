@@ -91,7 +91,7 @@ def inlay_hint(snapshot: Snapshot, params: types.InlayHintParams) -> list[types.
 
 def semantic_tokens(snapshot: Snapshot, _params: types.SemanticTokensParams) -> types.SemanticTokens:
     """Return what each word of a script is."""
-    marks = semantics.paint(snapshot.analysis).marks()
+    marks = _painting(snapshot).marks()
     return types.SemanticTokens(list(_encoded(snapshot.analysis.source, marks, snapshot.client.encoding)))
 
 
@@ -100,11 +100,16 @@ def semantic_tokens_range(snapshot: Snapshot, params: types.SemanticTokensRangeP
     source, encoding = snapshot.analysis.source, snapshot.client.encoding
     within = span_of(source, params.range, encoding)
     marks = (
-        mark
-        for mark in semantics.paint(snapshot.analysis).marks()
-        if mark.span.end > within.start and mark.span.start < within.end
+        mark for mark in _painting(snapshot).marks() if mark.span.end > within.start and mark.span.start < within.end
     )
     return types.SemanticTokens(list(_encoded(source, marks, encoding)))
+
+
+def _painting(snapshot: Snapshot) -> semantics.Painting:
+    """Return the marks of a text; what an edit has left alone is taken from the last."""
+    painting = semantics.paint(snapshot.analysis, snapshot.kept.get("painting"))
+    snapshot.kept["painting"] = painting
+    return painting
 
 
 def _encoded(source: Source, marks: Iterable[semantics.Mark], encoding: Encoding) -> Iterator[int]:
