@@ -256,6 +256,15 @@ def test_a_script_is_saved_so_that_its_first_line_plays_it_where_it_is_saved(
         np.testing.assert_array_equal(bvh.read(path.with_suffix(".bvh")).frames, frames)
 
 
+def test_a_script_that_would_use_another_file_of_that_name_has_the_motions_that_were_taken(
+    say: Say, scripts: Path
+) -> None:
+    Path("lib.ms").write_text("let A = TALK\n", encoding="utf-8")
+    assert say(f".load {scripts / 'a.ms'}").ok
+    assert not say(".save c.ms").data["as_entered"]
+    assert "Full-Body Walk_" in Path("c.ms").read_text(encoding="utf-8")
+
+
 def test_a_script_on_the_demo_library_says_so(say: Say, tmp_path: Path) -> None:
     say("WALK", f".save {tmp_path / 'a.ms'}")
     assert " --library demo " in (tmp_path / "a.ms").read_text(encoding="utf-8")
