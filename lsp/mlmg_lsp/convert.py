@@ -134,12 +134,20 @@ def changed_lines(source: Source, after: str) -> Iterator[tuple[Span, str]]:
     old = [source.text[start:end] for start, end in pairwise(starts)]
     new = [after[start:end] for start, end in pairwise((*Source(after).line_starts, len(after)))]
     for first, last, begin, end in _differences(old, new):
-        pairs = zip(old[first:last], new[begin:end], strict=False)
-        n_lines = next((n for n, pair in enumerate(pairs) if not _is_respaced(*pair)), min(last - first, end - begin))
-        for n in range(n_lines):
-            yield Span(starts[first + n], starts[first + n + 1]), new[begin + n]
-        if first + n_lines < last or begin + n_lines < end:
-            yield Span(starts[first + n_lines], starts[last]), "".join(new[begin + n_lines : end])
+        n_alone = _n_alone(old[first:last], new[begin:end])
+        for n in range(n_alone):
+            if old[first + n] != new[begin + n]:
+                yield Span(starts[first + n], starts[first + n + 1]), new[begin + n]
+        if first + n_alone < last or begin + n_alone < end:
+            yield Span(starts[first + n_alone], starts[last]), "".join(new[begin + n_alone : end])
+
+
+def _n_alone(old: Sequence[str], new: Sequence[str]) -> int:
+    """Return how many of the first of some lines become another each: all, or those that are only spaced otherwise."""
+    if len(old) == len(new):
+        return len(old)
+    pairs = zip(old, new, strict=False)
+    return next((n for n, pair in enumerate(pairs) if not _is_respaced(*pair)), min(len(old), len(new)))
 
 
 def _is_respaced(one: str, other: str) -> bool:

@@ -19,6 +19,8 @@ def test_what_work_comes_to_is_returned_and_what_it_raises_raised():
     asyncio.run(both())
 
 
+# Threads end with SystemExit without a word, but pytest has a word for it.
+@pytest.mark.filterwarnings("ignore::pytest.PytestUnhandledThreadExceptionWarning")
 def test_work_that_nobody_waits_for_is_stopped():
     begun, ended = Event(), Event()
 
