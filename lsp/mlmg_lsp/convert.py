@@ -56,7 +56,9 @@ def location_of(snapshot: Snapshot, span: Span) -> types.Location:
 
 def location_of_place(snapshot: Snapshot, file: str, span: Span) -> types.Location:
     """Return a place in a file, counted from its beginning."""
-    return types.Location(uri_of(snapshot, file), range_of(source_of(snapshot, file), span, snapshot.client.encoding))
+    # The whole of a file is meant by its beginning: a clip is not read for that.
+    source = source_of(snapshot, file) if span.end else Source("", file)
+    return types.Location(uri_of(snapshot, file), range_of(source, span, snapshot.client.encoding))
 
 
 def uri_of(snapshot: Snapshot, file: str) -> str:
@@ -67,10 +69,11 @@ def uri_of(snapshot: Snapshot, file: str) -> str:
 
 
 def source_of(snapshot: Snapshot, file: str) -> Source:
-    """Return the text of a file that is open, or that an open script uses; else, no text."""
+    """Return the text of a file: as it is open, or as an open script uses it, else as it is on disk."""
     known = (snapshot.analysis, *snapshot.others)
     sources = (source for one in known for source in (one.source, *one.source.used))
-    return next((Source(source.text, file) for source in sources if source.name == file), Source("", file))
+    found = next((source.text for source in sources if source.name == file), None)
+    return Source(Path(file).read_bytes().decode("utf-8-sig", "replace") if found is None else found, file)
 
 
 # --- diagnostics ---

@@ -145,6 +145,17 @@ def test_a_name_leads_to_its_definition_and_to_where_it_is_used(client):
     assert [one["kind"] for one in client.ask_at("documentHighlight", URI, 2, 1)] == [3, 2, 2]
 
 
+def test_a_tag_leads_to_the_lines_of_the_configuration_that_give_it(start, tmp_path, demo_library):
+    library, configuration = tmp_path / "my.mlmg", tmp_path / "my.toml"
+    library.write_bytes(demo_library.path.read_bytes())
+    configuration.write_text('# 😀\n[tags.Full-Body]\nWalk_01 = ["WALK"]\n', encoding="utf-8")
+    client = start("--library", str(library))
+    client.initialize()
+    opened(client, "WALK\n")
+    (place,) = client.ask_at("definition", URI, 0, 1)
+    assert (place["uri"], place["range"]["start"]["line"]) == (configuration.as_uri(), 2)
+
+
 def test_a_definition_is_renamed_wherever_it_is_used_and_a_motion_is_not(client):
     opened(client, DEFINED)
     assert client.ask_at("prepareRename", URI, 2, 1)["placeholder"] == "greet"

@@ -2,11 +2,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
-
 from lsprotocol import types
 from pygls.exceptions import JsonRpcInvalidRequest
 
@@ -24,41 +19,28 @@ from mlmg_lsp.convert import (
     workspace_edits,
 )
 from mlmg_lsp.documents import Snapshot
-
-if TYPE_CHECKING:
-    from mlmg_runtime.library import Library
+from mlmg_lsp.library_facts import LibraryFacts, configuration_of
 
 
 def hover(snapshot: Snapshot, params: types.HoverParams) -> types.Hover | None:
     """Return what there is to say of what stands at a place."""
-    anatomy = None if snapshot.shelved is None else LibraryAnatomy(snapshot.shelved.library)
-    found = hovers.hover(snapshot.analysis, _offset(snapshot, params.position), anatomy)
+    found = hovers.hover(snapshot.analysis, _offset(snapshot, params.position), _facts(snapshot))
     if found is None:
         return None
     text = "\n\n".join(f"```motion-script\n{part.text}\n```" if part.code else part.text for part in found.parts)
     return types.Hover(types.MarkupContent(types.MarkupKind.Markdown, text), _range(snapshot, found.span))
 
 
-@dataclass(frozen=True, slots=True)
-class LibraryAnatomy:
-    """What is told of a library beyond its names; see `ide.hover.Anatomy`."""
-
-    library: Library
-
-    def joints(self, graph: str) -> Sequence[str]:
-        """Return the joints of a graph."""
-        return [self.library.skeleton.names[joint] for joint in self.library.by_name[graph].joints]
-
-    def transitions(self, graph: str, motion: str) -> Mapping[str, int]:
-        """Return, by motion, how many transitions of a graph lead there from a motion."""
-        own = self.library.by_name[graph]
-        leaving = own.transitions[own.transitions["src_motion"] == own.index[motion]]
-        return {own.motions[at]: n for at, n in Counter(leaving["dst_motion"].tolist()).most_common()}
+def _facts(snapshot: Snapshot) -> LibraryFacts | None:
+    if snapshot.shelved is None:
+        return None
+    library = snapshot.shelved.library
+    return LibraryFacts(library, configuration_of(library.path))
 
 
 def definition(snapshot: Snapshot, params: types.DefinitionParams) -> list[types.Location] | None:
     """Return where the name at a place gets its meaning."""
-    found = definitions.definition(snapshot.analysis, _offset(snapshot, params.position))
+    found = definitions.definition(snapshot.analysis, _offset(snapshot, params.position), _facts(snapshot))
     return None if found is None else [_location(snapshot, place) for place in found.places]
 
 
