@@ -20,7 +20,12 @@ __all__ = ["compile", "play"]
 
 
 def compile(
-    text: str, library: Catalog, start: str | None = None, *, plan: Literal["greedy", "global"] = "greedy"
+    text: str,
+    library: Catalog,
+    start: str | None = None,
+    *,
+    plan: Literal["greedy", "global"] = "greedy",
+    seed: int = 0,
 ) -> tuple[ResolvedPlan | None, tuple[Diagnostic, ...]]:
     """Return the plan of a script and what is to be said of it; the plan is None if there are errors.
 
@@ -28,7 +33,8 @@ def compile(
     ----------
     text : a script. library : what its names mean. start : the motion of the whole body to start in.
     plan : "greedy" chooses motions command by command; "global" over the whole script, for the least time and cost on
-        the way. A script that repeats or chooses, or gains nothing by it, is planned greedily all the same (`ahead`).
+        the way. A script that is very long, or gains nothing by it, is planned greedily all the same (`ahead`).
+    seed : of what is drawn by chance, for which "global" makes sure that it is no worse.
 
     Raises
     ------
@@ -46,7 +52,7 @@ def compile(
 
     if not isinstance(library, Library):
         raise TypeError(f"planning over the whole script asks for an opened library, not for {type(library).__name__}")
-    return look_ahead(analysis.resolved, library).plan, analysis.diagnostics
+    return look_ahead(analysis.resolved, library, seed).plan, analysis.diagnostics
 
 
 def play(plan: ResolvedPlan, library: Library, seed: int = 0, feet: bool = True) -> Performance:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from itertools import accumulate
+from itertools import accumulate, repeat
 from random import Random
 from typing import TypeAlias
 
@@ -26,9 +26,9 @@ def executed(plan: ResolvedPlan, draws: Random) -> Iterator[Step]:
 def _body(statements: Iterable[Statement], draws: Random) -> Iterator[Step]:
     for statement in statements:
         match statement:
-            case Repeat(count, body):
-                for _ in range(count):
-                    yield from _body(body, draws)
+            case Repeat(count, body, rounds=rounds):
+                for one in rounds or repeat(body, count):
+                    yield from _body(one, draws)
             case Choose(branches):
                 yield from _body(_drawn(branches, draws.random()).body, draws)
             case _:

@@ -19,15 +19,19 @@ from mlmg_lang.staging import ScriptError
 from mlmg_runtime.library import Library
 
 
-def look_ahead(plan: ResolvedPlan, library: Library) -> Ahead:
+def look_ahead(plan: ResolvedPlan, library: Library, seed: int = 0) -> Ahead:
     """Return the plan with the smallest sum of seconds on the way and costs that is known, as it is played.
 
-    It is the plan given, and the result says why, if it repeats or chooses, or if looking ahead brings nothing.
+    It is the plan given, and the result says why, if it is too long, or if looking ahead brings nothing.
+
+    Parameters
+    ----------
+    seed : of what `choose` draws when both are rehearsed; with any other the plan can be played, but may be worse.
     """
     ahead = plan_ahead(plan, Names(library), MotionTravel(library))
     if not ahead.planned:
         return ahead
-    given, planned = _price(plan, library), _price(ahead.plan, library)
+    given, planned = _price(plan, library, seed), _price(ahead.plan, library, seed)
     if planned < given or planned == given != inf:
         return ahead
     if planned == inf:
@@ -37,11 +41,11 @@ def look_ahead(plan: ResolvedPlan, library: Library) -> Ahead:
     return replace(ahead, plan=plan, planned=False, because=because)
 
 
-def _price(plan: ResolvedPlan, library: Library) -> float:
+def _price(plan: ResolvedPlan, library: Library, seed: int) -> float:
     """Return the seconds on the way and the costs of what is played; infinite, if it cannot be played."""
     try:
-        rehearsal = rehearse(plan, library)
+        rehearsal = rehearse(plan, library, seed)
     except ScriptError:
         return inf
-    played = played_of(rehearsal, executions_of(rehearsal, library, plan.start), library.frame_rate, seed=0)
+    played = played_of(rehearsal, executions_of(rehearsal, library, plan.start), library.frame_rate, seed)
     return played.under_way + played.cost

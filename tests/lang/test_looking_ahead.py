@@ -12,11 +12,13 @@ import pytest
 import mlmg_lang
 from mlmg_lang import looking_ahead
 from mlmg_lang.explaining.explain import explanation_from_analysis
+from mlmg_lang.explaining.travel import MotionTravel
 from mlmg_lang.front_end import analyse
 from mlmg_lang.looking_ahead import look_ahead
 from mlmg_lang.perform import rehearse
-from mlmg_lang.planning.ahead import Ahead
-from mlmg_lang.planning.resolved import ResolvedPlan
+from mlmg_lang.planning.ahead import Ahead, plan_ahead
+from mlmg_lang.planning.names import Names
+from mlmg_lang.planning.resolved import Repeat, ResolvedPlan
 from mlmg_lang.source import Source
 from mlmg_lang.staging import ScriptError
 from mlmg_runtime.library import Library
@@ -33,10 +35,10 @@ def resolved(text: str, library: Library) -> ResolvedPlan:
     return plan
 
 
-def price(plan: ResolvedPlan, library: Library) -> float:
+def price(plan: ResolvedPlan, library: Library, seed: int = 0) -> float:
     """Return the seconds on the way and the costs of a plan of the root graph alone, counted from its timeline."""
     try:
-        rehearsal = rehearse(plan, library)
+        rehearsal = rehearse(plan, library, seed)
     except ScriptError:
         return inf
     root = library.root.name
@@ -63,6 +65,28 @@ def check_never_worse(library: Library) -> None:
         assert ahead.planned or ahead.plan is plan
         gains += [greedy - looked] if greedy < inf else []
     assert sum(gains) / len(gains) > 0.5
+
+
+def random_script(draw: random.Random) -> str:
+    """Return a script of loops and choices of random commands."""
+
+    def some() -> str:
+        return "; ".join(draw.choice(MOTIONS) + draw.choice(AFTER) for _ in range(draw.randint(1, 2)))
+
+    loop = f"repeat {draw.randint(2, 3)} {{ {some()}; choose {{ {some()} | {draw.randint(1, 3)}: {some()} }} }}"
+    return "\n".join([some(), draw.choice([loop, f"repeat {draw.randint(2, 4)} {{ {some()}; {some()} }}"]), some()])
+
+
+def test_with_loops_and_choices_what_is_played_is_never_worse(demo_library):
+    draw, gains = random.Random(5), []
+    for seed in range(30):
+        plan = resolved(random_script(draw), demo_library)
+        ahead = look_ahead(plan, demo_library, seed)
+        greedy, looked = price(plan, demo_library, seed), price(ahead.plan, demo_library, seed)
+        assert looked <= greedy + 0.01
+        assert ahead.planned or ahead.plan is plan
+        gains.append(greedy - looked)
+    assert sum(gain > 0.5 for gain in gains) > 5
 
 
 def test_on_the_demo_library_what_is_played_is_never_worse(demo_library):
@@ -96,10 +120,10 @@ def test_what_cannot_be_played_is_not_taken_if_the_other_can(demo_library, monke
     planned_as(other, monkeypatch)
     outcomes = [*fails, False][:2]
 
-    def rehearse_or_fail(one: ResolvedPlan, library: Library) -> Any:
+    def rehearse_or_fail(one: ResolvedPlan, library: Library, seed: int) -> Any:
         if outcomes.pop(0):
             raise ScriptError("script.ms", 1, "no way leads there")
-        return rehearse(one, library)
+        return rehearse(one, library, seed)
 
     monkeypatch.setattr(looking_ahead, "rehearse", rehearse_or_fail)
     ahead = look_ahead(plan, demo_library)
@@ -107,12 +131,42 @@ def test_what_cannot_be_played_is_not_taken_if_the_other_can(demo_library, monke
     assert ahead.planned or "cannot be played" in ahead.because
 
 
-@pytest.mark.parametrize("script", ["Idle_01\nrepeat 2 { WALK }", "Idle_01\nchoose { WALK | IDLE }"])
-def test_a_script_that_repeats_or_chooses_is_played_command_by_command(demo_library, script):
+@pytest.mark.parametrize("script", ["repeat 501 { WALK }", "repeat 126 { WALK; choose { TALK | IDLE } }"])
+def test_a_script_that_repeats_very_often_is_played_command_by_command(demo_library, script):
     plan = resolved(script, demo_library)
     ahead = look_ahead(plan, demo_library)
     assert (ahead.plan, ahead.planned) == (plan, False)
-    assert "repeats or chooses" in ahead.because
+    assert "more than 500 statements" in ahead.because
+
+
+def test_each_round_of_a_loop_takes_what_was_chosen_for_it(demo_library):
+    plan = resolved("Idle_01\nrepeat 4 { WALK for 1 sec; IDLE for 1 sec }\nTALK", demo_library)
+    ahead = plan_ahead(plan, Names(demo_library), MotionTravel(demo_library)).plan
+    loop = ahead.statements[1]
+    assert isinstance(loop, Repeat)
+    wanted = [one.layers[0].candidates for body in loop.rounds for one in body]
+    steps = rehearse(ahead, demo_library).steps[1:-1]
+    assert [(step.motions["Full-Body"],) for step in steps] == wanted
+    assert {motion for one in loop.body for motion in one.layers[0].candidates} == {motion for (motion,) in wanted}
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_a_plan_with_choices_can_be_played_whatever_is_drawn(demo_library, seed):
+    script = "repeat 3 { WALK or IDLE for 1 sec; choose { TALK for 1 sec | 2: WALK | } }\nIDLE or TALK"
+    ahead = plan_ahead(resolved(script, demo_library), Names(demo_library), MotionTravel(demo_library)).plan
+    assert price(ahead, demo_library, seed) < inf
+
+
+def test_a_plan_is_rehearsed_with_what_the_seed_draws(demo_library, monkeypatch):
+    seeds = []
+
+    def rehearse_and_note(plan: ResolvedPlan, library: Library, seed: int) -> Any:
+        seeds.append(seed)
+        return rehearse(plan, library, seed)
+
+    monkeypatch.setattr(looking_ahead, "rehearse", rehearse_and_note)
+    mlmg_lang.compile("Idle_01\nchoose { WALK | TALK }", demo_library, plan="global", seed=7)
+    assert seeds == [7, 7]
 
 
 def test_the_report_says_which_plan_was_played(demo_library):

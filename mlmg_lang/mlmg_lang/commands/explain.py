@@ -49,7 +49,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--analyze", action="store_true", help="play it too, and set what happened beside the estimates"
     )
     parser.add_argument(
-        "--seed", metavar="N", type=int, default=0, help="for what is drawn by chance, with --analyze (0)"
+        "--seed", metavar="N", type=int, default=0, help="for what is drawn by chance, as it is played (0)"
     )
     parser.add_argument(
         "--plan",
@@ -87,7 +87,7 @@ def run(arguments: argparse.Namespace) -> int:
         tell(f"mlmg explain: error: {source.name}: there is nothing to play; expected a command, as `WALK for 10 sec`")
         return WRONG_CONTENT
     seed = arguments.seed if arguments.analyze else None
-    ahead = look_ahead(analysis.resolved, library) if arguments.plan == "global" else None
+    ahead = look_ahead(analysis.resolved, library, arguments.seed) if arguments.plan == "global" else None
     explanation = explanation_from_analysis(analysis, library, arguments.start, ahead, seed)
     _write(explanation, arguments.format, arguments.output)
     return DONE

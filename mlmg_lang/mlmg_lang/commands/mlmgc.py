@@ -176,7 +176,7 @@ def _play(arguments: argparse.Namespace, inputs: Inputs, libraries: Libraries, s
         return WRONG_CONTENT
     from mlmg_lang.perform import perform
 
-    plan = _ahead(analysis.resolved, library) if arguments.plan == "global" else analysis.resolved
+    plan = _ahead(analysis.resolved, library, arguments.seed) if arguments.plan == "global" else analysis.resolved
     performance = perform(plan, library, arguments.seed, arguments.fps, arguments.blend, arguments.feet)
     _write(performance, arguments.output, arguments.report)
     if arguments.output != "-":
@@ -184,11 +184,11 @@ def _play(arguments: argparse.Namespace, inputs: Inputs, libraries: Libraries, s
     return DONE
 
 
-def _ahead(plan: ResolvedPlan, library: Library) -> ResolvedPlan:
+def _ahead(plan: ResolvedPlan, library: Library, seed: int) -> ResolvedPlan:
     """Return a plan whose motions are chosen over the whole script, or the plan itself, and say why."""
     from mlmg_lang.looking_ahead import look_ahead
 
-    ahead = look_ahead(plan, library)
+    ahead = look_ahead(plan, library, seed)
     if not ahead.planned:
         tell(f"mlmgc: note: motions are chosen command by command: {ahead.because}")
     return ahead.plan

@@ -65,7 +65,8 @@ def explanation_from_analysis(
         plan, gain = ahead.plan, _gain(ahead, resolution.plan, (names, library, travel), seed)
     expected = forecast(plan, names, travel, now)
     played, executions = (None, {}) if seed is None else _play(plan, library, seed)
-    explainer = _Explainer(analysis, (names, library, travel), resolution, expected, executions)
+    chosen = frozenset(_chosen_ahead(plan.statements) if plan.ahead else ())
+    explainer = _Explainer(analysis, (names, library, travel), resolution, expected, executions, chosen)
     return told.Explanation(
         analysis.source.name,
         Path(library.path).name,
@@ -126,6 +127,7 @@ class _Explainer:
         resolution: Resolution,
         expected: Forecast,
         executions: _Executions,
+        chosen_ahead: frozenset[Span],
     ) -> None:
         assert analysis.plan is not None
         self._source = analysis.source
@@ -133,6 +135,7 @@ class _Explainer:
         self._names, self._library, self._travel = known
         self._states = resolution.states
         self._expected, self._executions = expected, executions
+        self._chosen_ahead = chosen_ahead
         self._written = {one.span: one for one in _flat(analysis.script.items, _inside_syntax)}
         self._expanded = {one.span: one for one in _flat(analysis.expanded.items, _inside_syntax)}
         self._typed = {one.span: one for one in _flat(analysis.plan.statements, _inside_typed)}
@@ -175,9 +178,8 @@ class _Explainer:
         assert isinstance(typed_one, typed.Command)
         way, refused = self._way(typed_one, command)
         duration = _duration(command.duration) if command.duration is not None or not is_last else _TO_THE_END
-        layers = (
-            layer_of(layer, command, outcome, self._names, self._travel, self._source) for layer in command.layers
-        )
+        known, is_ahead = (self._names, self._travel), command.span in self._chosen_ahead
+        layers = (layer_of(layer, command, outcome, known, self._source, is_ahead) for layer in command.layers)
         return told.Command(
             text,
             place,
@@ -265,6 +267,15 @@ class _Explainer:
         """Return the motions that may drive a part, in configuration order."""
         known = dict.fromkeys(motion for graph in self._names.graphs for motion in self._names.motions(graph))
         return [motion for motion in known if motion in part.origins]
+
+
+def _chosen_ahead(statements: Iterable[resolved.Statement]) -> Iterator[Span]:
+    """Yield the spans of the commands that looking ahead chooses for: those outside `choose`."""
+    for one in statements:
+        if isinstance(one, resolved.Repeat):
+            yield from _chosen_ahead(one.body)
+        elif isinstance(one, resolved.Command):
+            yield one.span
 
 
 _TO_THE_END = told.Duration("to the end", None)

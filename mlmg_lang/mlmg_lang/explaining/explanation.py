@@ -227,7 +227,8 @@ class Layer:
 
     Attributes
     ----------
-    rule : `soonest` (the root: whichever is reached first) or `best fit` (by OMS).
+    rule : `soonest` (the root: whichever is reached first), `best fit` (by OMS) or `look ahead` (the root: what was
+        chosen over the whole script for each execution).
     stays, follows : the chances that it keeps its motion, and that it follows the graph above, which plays a candidate.
     sources : what it sets out from, where it moves.
     candidates : in the order in which they are likely to be tried.

@@ -18,9 +18,15 @@ _Legs = Sequence[tuple[float, Leg]]
 
 
 def layer_of(
-    layer: resolved.Layer, command: resolved.Command, outcome: Outcome, names: Names, travel: Travel, source: Source
+    layer: resolved.Layer,
+    command: resolved.Command,
+    outcome: Outcome,
+    known: tuple[Names, Travel],
+    source: Source,
+    is_ahead: bool = False,
 ) -> told.Layer:
-    """Return what a command does on one graph."""
+    """Return what a command does on one graph; `is_ahead`: the root's motion was chosen over the whole script."""
+    names, travel = known
     graph = layer.graph
     legs = [
         (course.chance, leg)
@@ -40,7 +46,7 @@ def layer_of(
         graph,
         text_of(source, layer.span),
         place_of(source, layer.span),
-        "soonest" if graph == names.root else "best fit",
+        "best fit" if graph != names.root else "look ahead" if is_ahead else "soonest",
         _chance(legs, Kind.STAYS),
         _chance(legs, Kind.FOLLOWS),
         tuple(_sources(legs)),

@@ -43,6 +43,10 @@ from mlmg_lang.spelling import joined
 
 WIDTH: Final = 100
 _MOST_CANDIDATES: Final = 20
+_GOALS = {
+    "soonest": "whichever is reached soonest",
+    "look ahead": "what was chosen for each round",
+}
 _MOST_EXECUTIONS: Final = 3
 _GREEN: Final = "32"
 _DIM: Final = "2"
@@ -271,8 +275,7 @@ def _layer(layer: Layer) -> Tree:
         if len(layer.candidates) == 1 and not _outranked(layer):
             told.append(f"from {sources} to {_only(layer)}")
         else:
-            goal = "whichever is reached soonest" if layer.rule == "soonest" else "what fits best"
-            told.append(f"from {sources} to {goal}")
+            told.append(f"from {sources} to {_GOALS.get(layer.rule, 'what fits best')}")
             rows = _candidates(layer)
     children = [*rows, *map(_ranking, _told_apart(layer)), *_left_out(layer)]
     text = "; else ".join(told) or "no way is known from where it will probably be"

@@ -6,9 +6,9 @@ once time has passed, it may be anywhere. So there are several things that may b
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import TypeAlias
+from typing import TypeAlias, TypeVar
 
 from mlmg_lang.planning.course import Course, World, bring, driver, end_part
 from mlmg_lang.planning.estimate import NO_TIME, Estimate, Moment, Playing, Travel, exactly, mixed
@@ -30,8 +30,12 @@ from mlmg_lang.source import Span
 
 MAX_WORLDS = 64
 """So many different things that may be playing are followed, the likeliest."""
+_TINY = 1e-6
+"""Chances that sum to so much less than 1 are all that there are."""
 _N_PASSES = 3
 """So often a script with loops is gone through, each time with what came out of the loops the time before."""
+
+_Found = TypeVar("_Found")
 
 Outlook: TypeAlias = Mapping[World, float]
 """What may be playing, with the chances, which sum to 1."""
@@ -66,6 +70,7 @@ class Passage:
     takes : from the beginning of the first to the end of the last.
     under_way, cost : the seconds and the transitions until commands have arrived, on average.
     rest : what the last command of a script takes to its clip's last frame, besides.
+    sure : whether all of it is possible, whatever may be playing.
     """
 
     after: Outlook
@@ -73,6 +78,7 @@ class Passage:
     under_way: float = 0.0
     cost: float = 0.0
     rest: Estimate = NO_TIME
+    sure: bool = True
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,7 +104,7 @@ def forecast(plan: ResolvedPlan, names: Names, travel: Travel, now: World | None
     ----------
     now : what is playing before it; without it, the plan's start.
     """
-    follower = _Follower(names, travel)
+    follower = Follower(names, travel)
     begin: Outlook = {now or at_start(plan, names): 1.0}
     whole = follower.body(plan.statements, begin, is_last=True)
     if _loops(plan.statements):
@@ -149,7 +155,7 @@ def afterwards(world: World, command: Command, names: Names, travel: Travel) -> 
 
 def _loops(statements: Iterable[Statement]) -> bool:
     for one in statements:
-        if isinstance(one, Repeat) and (one.count > 1 or _loops(one.body)):
+        if isinstance(one, Repeat) and not one.rounds and (one.count > 1 or _loops(one.body)):
             return True
         if isinstance(one, Choose) and any(_loops(branch.body) for branch in one.branches):
             return True
@@ -157,11 +163,12 @@ def _loops(statements: Iterable[Statement]) -> bool:
 
 
 @dataclass(slots=True)
-class _Follower:
+class Follower:
     """Follows statements in the order in which they are executed, and keeps what it finds by their spans.
 
     Attributes
     ----------
+    outcomes, passages : what has been found, as a `Forecast` has it.
     counted : the graph whose cycles a `wait` counts.
     """
 
@@ -177,7 +184,7 @@ class _Follower:
         for at, statement in enumerate(statements):
             one = self._statement(statement, done.after, is_last and at == len(statements) - 1)
             takes, under_way, cost = done.takes + one.takes, done.under_way + one.under_way, done.cost + one.cost
-            done = Passage(one.after, takes, under_way, cost, one.rest)
+            done = Passage(one.after, takes, under_way, cost, one.rest, done.sure and one.sure)
         return done
 
     def _statement(self, statement: Statement, outlook: Outlook, is_last: bool) -> Passage:
@@ -203,11 +210,27 @@ class _Follower:
     def _repeat(self, repeat: Repeat, outlook: Outlook, is_last: bool) -> Passage:
         if repeat.count == 0:
             return Passage(outlook)
+        if repeat.rounds:
+            return self._rounds(repeat, outlook, is_last)
         before, share = self.passages.get(repeat.span), 1.0 / repeat.count
         head = outlook if before is None else _joined([(share, outlook), (1.0 - share, before.after)])
         once = self.passages[repeat.span] = self.body(repeat.body, head, is_last)
         n = repeat.count
-        return Passage(once.after, once.takes.times(n), once.under_way * n, once.cost * n, once.rest)
+        return Passage(once.after, once.takes.times(n), once.under_way * n, once.cost * n, once.rest, once.sure)
+
+    def _rounds(self, repeat: Repeat, outlook: Outlook, is_last: bool) -> Passage:
+        """Follow the body each time by itself, and keep what is found on average."""
+        followers, passages = [], [Passage(outlook)]
+        for body in repeat.rounds:
+            one = Follower(self.names, self.travel, counted=self.counted)
+            passages.append(one.body(body, passages[-1].after, is_last))
+            followers.append(one)
+            self.counted = one.counted
+        self.outcomes |= _averages([one.outcomes for one in followers], _average_outcome)
+        self.passages |= _averages([one.passages for one in followers], _average_passage)
+        once = self.passages[repeat.span] = _average_passage(passages[1:])
+        n, last = repeat.count, passages[-1]
+        return Passage(last.after, once.takes.times(n), once.under_way * n, once.cost * n, last.rest, once.sure)
 
     def _choose(self, choose: Choose, outlook: Outlook, is_last: bool) -> Passage:
         chances = chances_of(choose)
@@ -222,6 +245,7 @@ class _Follower:
             sum(chance * passage.under_way for chance, passage in drawn),
             sum(chance * passage.cost for chance, passage in drawn),
             mixed((chance, passage.rest) for chance, passage in drawn),
+            all(passage.sure for _, passage in drawn),
         )
 
     def _command(self, command: Command, outlook: Outlook, is_last: bool) -> Passage:
@@ -232,6 +256,7 @@ class _Follower:
             for course in bring(world, command, self.names, self.travel)
         ]
         outcome = _outcome(outlook, courses)
+        sure = sum(course.chance for course in courses) > 1.0 - _TINY
         plays_out = is_last and command.duration is None
         time = self._to_last_frame if plays_out else lambda world: self._lasting(world, command.duration)
         lasts = mixed((course.chance, time(course.world)) for course in outcome.courses)
@@ -240,7 +265,7 @@ class _Follower:
             (afterwards(course.world, command, self.names, self.travel), course.chance) for course in outcome.courses
         )
         takes, rest = (outcome.arrives, lasts) if plays_out else (outcome.arrives + lasts, NO_TIME)
-        return Passage(after or outlook, takes, outcome.arrives.mean, outcome.cost, rest)
+        return Passage(after or outlook, takes, outcome.arrives.mean, outcome.cost, rest, sure)
 
     # --- how long ---
 
@@ -268,3 +293,31 @@ def _outcome(outlook: Outlook, courses: Sequence[Course]) -> Outcome:
 
 def _joined(outlooks: Sequence[tuple[float, Outlook]]) -> Outlook:
     return merged((world, share * chance) for share, outlook in outlooks for world, chance in outlook.items())
+
+
+def _averages(
+    rounds: Sequence[Mapping[Span, _Found]], average: Callable[[Sequence[_Found]], _Found]
+) -> dict[Span, _Found]:
+    """Return what was found in rounds of a loop, each as likely, by the same spans."""
+    spans = dict.fromkeys(span for found in rounds for span in found)
+    return {span: average([found[span] for found in rounds if span in found]) for span in spans}
+
+
+def _average_outcome(rounds: Sequence[Outcome]) -> Outcome:
+    share = 1.0 / len(rounds)
+    before = _joined([(share, one.before) for one in rounds])
+    courses = [replace(course, chance=share * course.chance) for one in rounds for course in one.courses]
+    lasts = mixed((share, one.lasts) for one in rounds)
+    return replace(_outcome(before, courses), lasts=lasts)
+
+
+def _average_passage(rounds: Sequence[Passage]) -> Passage:
+    share = 1.0 / len(rounds)
+    return Passage(
+        _joined([(share, one.after) for one in rounds]),
+        mixed((share, one.takes) for one in rounds),
+        share * sum(one.under_way for one in rounds),
+        share * sum(one.cost for one in rounds),
+        mixed((share, one.rest) for one in rounds),
+        all(one.sure for one in rounds),
+    )

@@ -94,11 +94,18 @@ class End:
 
 @dataclass(frozen=True, slots=True)
 class Repeat:
-    """Statements that are executed several times."""
+    """Statements that are executed several times.
+
+    Attributes
+    ----------
+    body : with all candidates that are taken at some time.
+    rounds : the body as it is executed each time, where motions were chosen for each; else none.
+    """
 
     count: int
     body: tuple[Statement, ...]
     span: Span
+    rounds: tuple[tuple[Statement, ...], ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

@@ -227,7 +227,10 @@ def test_motions_are_chosen_over_the_whole_script_where_that_is_asked_for(scene)
 
 
 def test_what_is_not_planned_over_the_whole_script_is_played_and_said(scene, capsys):
-    (scene / "scene.ms").write_text("Stand for 1 sec\nrepeat 2 { WALK for 1 sec }\n")
+    (scene / "scene.ms").write_text("Stand for 1 sec\nrepeat 501 { WALK }\n")
     assert compiled("-o", "b.bvh", "--report", "b.json", "--plan", "global") == 0
-    assert "mlmgc: note: motions are chosen command by command: the script repeats" in capsys.readouterr().err
+    assert (
+        "mlmgc: note: motions are chosen command by command: all rounds and branches counted, it has more than 500"
+        in capsys.readouterr().err
+    )
     assert json.loads((scene / "b.json").read_text(encoding="utf-8"))["plan"] == "greedy"

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections import Counter
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -197,10 +199,26 @@ def test_planning_over_the_whole_script_tells_what_it_gains(explained, made_libr
 
 
 def test_where_it_cannot_plan_over_the_whole_script_it_says_so(explained):
-    told = explained("Idle_01\nrepeat 2 { WALK }", look_ahead=True)
+    told = explained("Idle_01\nrepeat 501 { WALK }", look_ahead=True)
     assert told.gain is not None
     assert not told.gain.planned
-    assert "repeats" in told.gain.because
+    assert "more than 500 statements" in told.gain.because
+
+
+def test_a_loop_planned_over_the_whole_script_tells_how_often_each_motion_is_taken(explained, demo_library):
+    script = "IDLE for 1 sec\nrepeat 3 { WALK for 1 sec; IDLE or TALK for 1 sec }\nchoose { WALK | TALK }\nTALK"
+    told = explained(script, demo_library, look_ahead=True, seed=0)
+    assert told.gain is not None
+    assert told.gain.planned
+    _, loop, choice, _ = told.statements
+    for one in loop.body:
+        assert one.layers[0].rule == "look ahead"
+        times = Counter(motion.motion for went in one.executions for motion in went.taken)
+        assert {one.motion: round(3 * one.chance) for one in one.layers[0].candidates} == times
+    assert len(loop.body[1].layers[0].candidates) > 1
+    assert "to what was chosen for each round" in render_text(told)
+    drawn = choice.branches[0].body[0].layers[0]
+    assert (drawn.rule, len(drawn.candidates)) == ("soonest", 3)
 
 
 def test_what_happened_stands_beside_what_was_expected(explained, demo_library):

@@ -1,4 +1,7 @@
-"""What is told of the scripts in golden/explained, as text, JSON and a flowchart; rewritten with --update-golden."""
+"""What is told of the scripts in golden/explained, as text, JSON and a flowchart; rewritten with --update-golden.
+
+Those whose names begin with `ahead` are planned over the whole script.
+"""
 
 from __future__ import annotations
 
@@ -29,7 +32,8 @@ def test_a_script_is_explained_as_before(
     explained: Callable[..., Explanation],
     golden: Callable[[Path, str], None],
 ) -> None:
-    golden(path.with_suffix(f".{ending}"), render(explained(path.read_text(encoding="utf-8"))))
+    told = explained(path.read_text(encoding="utf-8"), look_ahead=path.stem.startswith("ahead"))
+    golden(path.with_suffix(f".{ending}"), render(told))
 
 
 def test_there_are_scripts() -> None:

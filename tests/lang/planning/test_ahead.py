@@ -17,7 +17,7 @@ from mlmg_lang.planning.ahead import narrowings, plan_ahead
 from mlmg_lang.planning.estimate import Travel
 from mlmg_lang.planning.forecast import forecast
 from mlmg_lang.planning.names import Names
-from mlmg_lang.planning.resolved import Command, ResolvedPlan
+from mlmg_lang.planning.resolved import Command, Repeat, ResolvedPlan
 from mlmg_lang.source import Source
 
 COMMANDS = (
@@ -99,9 +99,78 @@ def test_a_way_that_is_longer_at_first_is_taken_where_it_is_shorter_in_all(refer
     assert greedy.whole.under_way == 10.0
 
 
-@pytest.mark.parametrize("script", ["Idle_01\nrepeat 2 { WALK }", "Idle_01\nchoose { WALK | IDLE }"])
-def test_a_script_that_repeats_or_chooses_is_left_as_it_is(script, reference, said):
+def loop_combinations(plan: ResolvedPlan, names: Names) -> Iterator[ResolvedPlan]:
+    """Yield a plan of commands, choices and loops of commands with every combination of candidates for each round."""
+    options: list[list[Any]] = []
+    for one in plan.statements:
+        if not isinstance(one, Repeat):
+            options.append([narrowed for _, narrowed in narrowings(one, names)])
+            continue
+        bodies = list(product(*([narrowed for _, narrowed in narrowings(each, names)] for each in one.body)))
+        options.append([replace(one, rounds=rounds) for rounds in product(bodies, repeat=one.count)])
+    for statements in product(*options):
+        yield replace(plan, statements=tuple(statements), ahead=True)
+
+
+@pytest.mark.parametrize(
+    "script",
+    [
+        "Idle_01\nrepeat 2 { WALK for 1 sec; IDLE for 1 sec }\nTALK",
+        "Idle_01 for 1 sec\nWALK\nchoose { 3: IDLE for 1 sec | TALK; wait 1 cycles }\nWALK\nIDLE",
+        "repeat 3 { WALK; choose { Music for 1 sec | } }\nTALK",
+        "repeat 2 { end Upper-Body; WALK with Upper-Body TALK for 1 sec }\nIDLE",
+    ],
+)
+def test_no_combination_for_rounds_and_around_choices_is_cheaper(script, demo_library):
+    plan, names, travel = resolved(script, demo_library), Names(demo_library), MotionTravel(demo_library)
+    ahead = plan_ahead(plan, names, travel)
+    prices = [price(one, names, travel) for one in loop_combinations(plan, names)]
+    assert ahead.planned
+    assert ahead.price == pytest.approx(min(prices))
+    assert price(ahead.plan, names, travel) == pytest.approx(min(prices))
+    assert min(prices) < max(prices)
+
+
+def test_each_round_of_a_loop_has_a_choice_of_its_own(reference, said):
+    times = {("Idle_01", "Walk_01"): 1.0, ("Walk_01", "Talk_01"): 1.0, ("Talk_01", "Walk_02"): 1.0}
+    ways = {
+        (a, b): times.get((a, b), 5.0) for a in reference.motions("Full-Body") for b in reference.motions("Full-Body")
+    }
+    plan = resolved("Idle_01\nrepeat 2 { WALK; Talk_01 }", reference)
+    ahead = plan_ahead(plan, Names(reference), said(ways | {("Walk_02", "Talk_01"): 1.0}))
+    loop = ahead.plan.statements[1]
+    assert isinstance(loop, Repeat)
+    assert [body[0].layers[0].candidates for body in loop.rounds] == [("Walk_01",), ("Walk_02",)]
+    assert loop.body[0].layers[0].candidates == ("Walk_01", "Walk_02")
+    assert [one.motion for one in loop.body[0].layers[0].left_out] == ["Walk_03"]
+    assert ahead.price == 4.0
+
+
+def test_what_stands_before_a_choice_is_chosen_for_what_may_come_after(reference, said):
+    onward = {("Walk_01", "Talk_02"): 9.0, ("Walk_01", "Music_01"): 1.0, ("Walk_02", "Music_01"): 4.0}
+    times = {("Idle_01", "Walk_01"): 1.0, ("Idle_01", "Walk_02"): 1.0, ("Walk_02", "Talk_02"): 1.0}
+    times |= {("Idle_01", "Walk_03"): 20.0}
+    for weights, taken in (((3, 1), "Walk_01"), ((1, 3), "Walk_02")):
+        script = "Idle_01\nWALK\nchoose { {}: Music_01 | {}: Talk_02 }".replace("{}", "%d") % weights
+        ahead = plan_ahead(resolved(script, reference), Names(reference), said({**onward, **times}))
+        assert ahead.plan.statements[1].layers[0].candidates == (taken,)
+        assert ahead.plan.statements[2] == resolved(script, reference).statements[2]
+
+
+@pytest.mark.parametrize(
+    ("script", "planned"),
+    [
+        ("repeat 500 { Idle_01 }", True),
+        ("repeat 501 { Idle_01 }", False),
+        ("repeat 50 { repeat 10 { Idle_01 }; Walk_01 }", False),
+        ("repeat 167 { choose { Idle_01 | Idle_01 } }", False),
+        ("repeat 1000000 { }\nIdle_01", True),
+        ("repeat 0 { Walk_01 }\nIdle_01", True),
+        ("Idle_01\n" * 501, True),
+    ],
+)
+def test_only_very_long_scripts_with_loops_are_left_as_they_are(script, planned, reference, said):
     plan = resolved(script, reference)
     ahead = plan_ahead(plan, Names(reference), said())
-    assert (ahead.plan, ahead.planned) == (plan, False)
-    assert "repeats or chooses" in ahead.because
+    assert (ahead.planned, ahead.plan is plan) == (planned, not planned)
+    assert ("more than 500 statements" in ahead.because) == (not planned)
