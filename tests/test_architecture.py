@@ -1,8 +1,10 @@
 """What the architecture page and the README say of the stages is so in the code."""
 
+import ast
 import re
 import subprocess
 import sys
+from graphlib import TopologicalSorter
 from importlib import import_module
 from pathlib import Path
 
@@ -63,3 +65,26 @@ def test_the_installed_package_is_what_is_tested_where_that_is_asked_for():
 @pytest.mark.parametrize("package", ["mlmg_lang", "mlmg_grammar", "mlmg_runtime", "mlmg_lsp"])
 def test_every_package_says_that_it_is_typed(package):
     assert (Path(import_module(package).__file__).parent / "py.typed").exists()
+
+
+def test_no_module_imports_itself_by_way_of_others():
+    modules = {
+        ".".join(path.relative_to(root).with_suffix("").parts).removesuffix(".__init__"): path
+        for root in (ROOT / "grammar", ROOT / "mlmg_lang", ROOT / "runtime", ROOT / "lsp")
+        for path in root.glob("mlmg_*/**/*.py")
+    }
+    assert len(modules) > 200
+    TopologicalSorter({name: set(_imported(name, path, modules)) for name, path in modules.items()}).prepare()
+
+
+def _imported(name, path, modules):
+    """Yield what a module imports, be it late or for types alone."""
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Import):
+            found = [alias.name for alias in node.names]
+        elif isinstance(node, ast.ImportFrom) and node.module:
+            inside = [f"{node.module}.{alias.name}" for alias in node.names]
+            found = [one if one in modules else node.module for one in inside]
+        else:
+            continue
+        yield from (one for one in found if one in modules and one != name)

@@ -16,7 +16,6 @@ from pygls.uris import to_fs_path
 
 from mlmg_lang.source import Source
 from mlmg_lsp.client import Client
-from mlmg_lsp.features import warm
 from mlmg_lsp.positions import EditorPosition
 from mlmg_lsp.texts import edited, lines_of
 from mlmg_lsp.work import off_loop
@@ -101,11 +100,23 @@ def path_of(uri: str) -> Path | None:
 class Documents:
     """All texts that are open in one client."""
 
-    def __init__(self, files: Callable[[Document], Files], told: Callable[[Document], Awaitable[None]]) -> None:
-        """Take what says where a text finds the files that it uses, and what is to be called with each new analysis."""
+    def __init__(
+        self,
+        files: Callable[[Document], Files],
+        told: Callable[[Document], Awaitable[None]],
+        get_ready: Callable[[], None],
+    ) -> None:
+        """Take what is to be asked.
+
+        Parameters
+        ----------
+        files : says where a text finds the files that it uses.
+        told : is called with each new analysis. get_ready : is called once, before the first.
+        """
         self.client = Client()
         self._files = files
         self._told = told
+        self._get_ready = get_ready
         self._open: dict[str, Document] = {}
         self._warming: asyncio.Task[None] | None = None
 
@@ -165,7 +176,7 @@ class Documents:
     async def warm(self) -> None:
         """Get ready, once."""
         if self._warming is None:
-            self._warming = asyncio.ensure_future(off_loop(warm))
+            self._warming = asyncio.ensure_future(off_loop(self._get_ready))
         await asyncio.shield(self._warming)
 
     async def snapshot(self, uri: str) -> Snapshot:

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import asyncio
 import json
 import logging
-from typing import TYPE_CHECKING, Any
+import typing
+from typing import Any, cast
 
 from lsprotocol import types
 from pygls.exceptions import (
@@ -15,16 +17,27 @@ from pygls.exceptions import (
 )
 from pygls.protocol import LanguageServerProtocol, lsp_method
 
-if TYPE_CHECKING:
-    from mlmg_lsp.server import MotionScriptServer
-
 _log = logging.getLogger(__name__)
+
+
+class Texts(typing.Protocol):
+    """What is told of texts, and of the end."""
+
+    orderly: bool
+    ended: asyncio.Event
+
+    def opened(self, params: types.DidOpenTextDocumentParams) -> None:
+        """Take in a text."""
+
+    def changed(self, params: types.DidChangeTextDocumentParams) -> None:
+        """Edit a text."""
+
+    def closed(self, params: types.DidCloseTextDocumentParams) -> None:
+        """Let go of a text."""
 
 
 class Protocol(LanguageServerProtocol):
     """Hands messages on. pygls's own copies of texts are left out: Unicode's line ends would put edits elsewhere."""
-
-    _server: MotionScriptServer
 
     def receive(self, body: bytes | str) -> None:
         """Handle a message. One that cannot be understood is passed over; if it asks for an answer, it is told so."""
@@ -64,23 +77,27 @@ class Protocol(LanguageServerProtocol):
         if future is not None:
             future.cancel()
 
+    @property
+    def _texts(self) -> Texts:
+        return cast("Texts", self._server)
+
     @lsp_method(types.TEXT_DOCUMENT_DID_OPEN)
     def lsp_text_document__did_open(self, params: types.DidOpenTextDocumentParams) -> None:
         """Take in a text."""
-        self._server.opened(params)
+        self._texts.opened(params)
 
     @lsp_method(types.TEXT_DOCUMENT_DID_CHANGE)
     def lsp_text_document__did_change(self, params: types.DidChangeTextDocumentParams) -> None:
         """Edit a text."""
-        self._server.changed(params)
+        self._texts.changed(params)
 
     @lsp_method(types.TEXT_DOCUMENT_DID_CLOSE)
     def lsp_text_document__did_close(self, params: types.DidCloseTextDocumentParams) -> None:
         """Let go of a text."""
-        self._server.closed(params)
+        self._texts.closed(params)
 
     @lsp_method(types.EXIT)
     def lsp_exit(self, *_: object) -> None:  # type: ignore[override]
         """End; in order, if `shutdown` has come before."""
-        self._server.orderly = self._shutdown
-        self._server.ended.set()
+        self._texts.orderly = self._shutdown
+        self._texts.ended.set()

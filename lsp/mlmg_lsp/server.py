@@ -10,7 +10,7 @@ from contextlib import suppress
 from functools import partial
 from importlib.metadata import version
 from pathlib import Path
-from typing import Any, Final
+from typing import TYPE_CHECKING, Any, Final
 
 from lsprotocol import types
 from pygls.exceptions import JsonRpcContentModified, JsonRpcInternalError
@@ -19,13 +19,16 @@ from pygls.lsp.server import LanguageServer
 from mlmg_lang.libraries import SETTINGS
 from mlmg_lsp.client import client_from
 from mlmg_lsp.documents import Document, Documents, Snapshot, Superseded, path_of
-from mlmg_lsp.features import FEATURES, RESOLVING, answer_named
+from mlmg_lsp.features import FEATURES, RESOLVING, answer_named, warm
 from mlmg_lsp.libraries import Shelf
 from mlmg_lsp.progress import Bar
 from mlmg_lsp.protocol import Protocol
 from mlmg_lsp.work import off_loop
 from mlmg_lsp.workspace import Settings, Workspace, folders_of
 from mlmg_runtime.errors import MlmgError
+
+if TYPE_CHECKING:
+    from mlmg_lang.definitions.gather import Files
 
 _SECTION: Final = "mlmg"
 _WATCHED: Final = ("**/*.ms", "**/*.mlmg", "**/library.toml", f"**/{SETTINGS}")
@@ -53,9 +56,12 @@ class MotionScriptServer(LanguageServer):
         self.ended = asyncio.Event()
         self.orderly = False
         self.folders = Workspace(settings, shelf)
-        self.documents = Documents(lambda document: self.folders.files(document, self.documents), self._publish)
+        self.documents = Documents(self._files_of, self._publish, warm)
         self._said: set[str] = set()
         self._tasks: set[asyncio.Future[Any]] = set()
+
+    def _files_of(self, document: Document) -> Files:
+        return self.folders.files(document, self.documents)
 
     # --- as a transport sees it ---
 
