@@ -23,9 +23,10 @@ async def off_loop(work: Callable[[], T]) -> T:
     future: asyncio.Future[T] = loop.create_future()
 
     def run() -> None:
-        settle = _settling(future, work)
-        with suppress(RuntimeError):  # the loop has ended, and with it all who waited
-            loop.call_soon_threadsafe(settle)
+        with suppress(SystemExit):  # nobody waits for it any more
+            settle = _settling(future, work)
+            with suppress(RuntimeError):  # the loop has ended, and with it all who waited
+                loop.call_soon_threadsafe(settle)
 
     thread = Thread(target=run, daemon=True)
     thread.start()
@@ -47,6 +48,6 @@ def _settling(future: asyncio.Future[T], work: Callable[[], T]) -> Callable[[], 
 
 
 def _stop(thread: Thread) -> None:
-    """End a thread by the one exception that threads end with without a word."""
+    """End a thread by the one exception that threads end with without a word, wherever it hits them."""
     if thread.ident is not None and thread.is_alive():
         ctypes.pythonapi.PyThreadState_SetAsyncExc(ctypes.c_ulong(thread.ident), ctypes.py_object(SystemExit))
