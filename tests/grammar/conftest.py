@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cache
 from typing import Any
 
@@ -21,6 +21,21 @@ def compiled(oniguruma: str) -> re.Pattern[str]:
 
 
 @dataclass
+class Ahead:
+    """What each pattern matches next in a line, kept until it is passed: else a long line takes its length squared."""
+
+    line: str
+    next: dict[str, re.Match[str] | None] = field(default_factory=dict)
+
+    def search(self, pattern: str, at: int) -> re.Match[str] | None:
+        """Return the first match of a pattern from a place on; places are asked for in order."""
+        known = self.next.get(pattern)
+        if pattern not in self.next or (known is not None and known.start() < at):
+            self.next[pattern] = compiled(pattern).search(self.line, at)
+        return self.next[pattern]
+
+
+@dataclass
 class TextMate:
     """Colours text by a grammar: match, begin and end, captures, include; one line after the other."""
 
@@ -34,8 +49,9 @@ class TextMate:
 
     def _line(self, line: str, stack: list[Rule]) -> Iterator[Piece]:
         at = 0
+        ahead = Ahead(line)
         while at < len(line):
-            rule, key, match = self._first(line, at, stack[-1])
+            rule, key, match = self._first(ahead, at, stack[-1])
             if match is None:
                 yield at, len(line), ()
                 return
@@ -49,12 +65,12 @@ class TextMate:
                 stack.pop()
             at = match.end()
 
-    def _first(self, line: str, at: int, inside: Rule) -> tuple[Rule, str, re.Match[str] | None]:
+    def _first(self, ahead: Ahead, at: int, inside: Rule) -> tuple[Rule, str, re.Match[str] | None]:
         """Return the rule that matches first, and of those that match there the one that is listed first."""
         rules = [(inside, "end")] if "end" in inside else []
         rules += [(rule, "match" if "match" in rule else "begin") for rule in self._flat(inside["patterns"])]
-        found = [(rule, key, compiled(rule[key]).search(line, at)) for rule, key in rules]
-        return min(found, key=lambda one: len(line) + 1 if one[2] is None else one[2].start())
+        found = [(rule, key, ahead.search(rule[key], at)) for rule, key in rules]
+        return min(found, key=lambda one: len(ahead.line) + 1 if one[2] is None else one[2].start())
 
     def _flat(self, patterns: list[Rule]) -> Iterator[Rule]:
         for rule in patterns:
