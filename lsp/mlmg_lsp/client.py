@@ -12,6 +12,8 @@ from mlmg_lsp.positions import Encoding
 
 _ENCODINGS: Final[Mapping[str, Encoding]] = {"utf-8": "utf-8", "utf-16": "utf-16", "utf-32": "utf-32"}
 
+_REFRESHED: Final = ("diagnostics", "code_lens", "inlay_hint", "semantic_tokens")
+
 
 @dataclass(frozen=True, slots=True)
 class Client:
@@ -20,17 +22,18 @@ class Client:
     Attributes
     ----------
     encoding : what it counts characters in.
-    pulls : whether it asks for diagnostics; else it is told. refreshes : whether it can be told to ask again.
+    pulls : whether it asks for diagnostics, and can be told to ask again; else it is told of them.
     related, tags : whether diagnostics may have other places, and tags.
     snippets : whether completions may have places to fill in.
     versioned : whether edits may name the version that they are for.
     resolves_edits : whether it asks for the edit of a code action when that is chosen.
     progress, configuration, watches : whether it can be asked for these.
+    shows : whether it can be asked to show a document.
+    refreshed : of what it can be told to ask again, by the names of its capabilities.
     """
 
     encoding: Encoding = "utf-16"
     pulls: bool = False
-    refreshes: bool = False
     related: bool = False
     tags: bool = False
     snippets: bool = False
@@ -39,6 +42,8 @@ class Client:
     progress: bool = False
     configuration: bool = False
     watches: bool = False
+    shows: bool = False
+    refreshed: frozenset[str] = frozenset()
 
 
 def client_from(capabilities: types.ClientCapabilities) -> Client:
@@ -53,8 +58,8 @@ def client_from(capabilities: types.ClientCapabilities) -> Client:
     resolved = has("text_document.code_action.resolve_support.properties") or ()
     return Client(
         encoding=encoding_from(has("general.position_encodings") or ()),
-        pulls=has("text_document.diagnostic") is not None,
-        refreshes=bool(has("workspace.diagnostics.refresh_support")),
+        # One that cannot be told to ask again would never hear of a library that is loaded later.
+        pulls=has("text_document.diagnostic") is not None and bool(has("workspace.diagnostics.refresh_support")),
         related=bool(has("text_document.publish_diagnostics.related_information")),
         tags=bool(has("text_document.publish_diagnostics.tag_support")),
         snippets=bool(has("text_document.completion.completion_item.snippet_support")),
@@ -63,6 +68,8 @@ def client_from(capabilities: types.ClientCapabilities) -> Client:
         progress=bool(has("window.work_done_progress")),
         configuration=bool(has("workspace.configuration")),
         watches=bool(has("workspace.did_change_watched_files.dynamic_registration")),
+        shows=bool(has("window.show_document.support")),
+        refreshed=frozenset(name for name in _REFRESHED if has(f"workspace.{name}.refresh_support")),
     )
 
 

@@ -6,6 +6,7 @@ import asyncio
 import json
 import logging
 import typing
+from collections.abc import Generator
 from typing import Any, cast
 
 from lsprotocol import types
@@ -21,7 +22,7 @@ _log = logging.getLogger(__name__)
 
 
 class Texts(typing.Protocol):
-    """What is told of texts, and of the end."""
+    """What is told of texts, of commands, and of the end."""
 
     orderly: bool
     ended: asyncio.Event
@@ -34,6 +35,12 @@ class Texts(typing.Protocol):
 
     def closed(self, params: types.DidCloseTextDocumentParams) -> None:
         """Let go of a text."""
+
+    def fit(self, capabilities: types.ServerCapabilities) -> None:
+        """Leave out of what the client is told that can be done what it had better not ask for; add what it may."""
+
+    async def execute(self, params: types.ExecuteCommandParams) -> Any:
+        """Execute a command."""
 
 
 class Protocol(LanguageServerProtocol):
@@ -80,6 +87,18 @@ class Protocol(LanguageServerProtocol):
     @property
     def _texts(self) -> Texts:
         return cast("Texts", self._server)
+
+    @lsp_method(types.INITIALIZE)
+    def lsp_initialize(self, params: types.InitializeParams) -> Generator[Any, Any, types.InitializeResult]:
+        """Answer with what can be done for the client."""
+        result = yield from super().lsp_initialize(params)
+        self._texts.fit(result.capabilities)
+        return result
+
+    @lsp_method(types.WORKSPACE_EXECUTE_COMMAND)
+    async def lsp_workspace__execute_command(self, params: types.ExecuteCommandParams) -> Any:  # type: ignore[override]
+        """Execute a command."""
+        return await self._texts.execute(params)
 
     @lsp_method(types.TEXT_DOCUMENT_DID_OPEN)
     def lsp_text_document__did_open(self, params: types.DidOpenTextDocumentParams) -> None:

@@ -13,13 +13,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 from lsprotocol import types
-from pygls.exceptions import JsonRpcContentModified, JsonRpcInternalError
+from pygls.exceptions import JsonRpcContentModified, JsonRpcException, JsonRpcInternalError
 from pygls.lsp.server import LanguageServer
 
 from mlmg_lang.libraries import SETTINGS
 from mlmg_lsp.client import client_from
 from mlmg_lsp.documents import Document, Documents, Snapshot, Superseded, path_of
-from mlmg_lsp.features import FEATURES, RESOLVING, answer_named, warm
+from mlmg_lsp.executing import Executor
+from mlmg_lsp.features import COMMANDS, FEATURES, RESOLVING, answer_named, warm
 from mlmg_lsp.libraries import Shelf
 from mlmg_lsp.progress import Bar
 from mlmg_lsp.protocol import Protocol
@@ -57,6 +58,7 @@ class MotionScriptServer(LanguageServer):
         self.orderly = False
         self.folders = Workspace(settings, shelf)
         self.documents = Documents(self._files_of, self._publish, warm)
+        self.executor = Executor(self, self.documents, self.snapshot)
         self._said: set[str] = set()
         self._tasks: set[asyncio.Future[Any]] = set()
 
@@ -76,6 +78,7 @@ class MotionScriptServer(LanguageServer):
     def leave(self) -> None:
         """Let go of all."""
         self.documents.close_all()
+        self.executor.end()
         for task in list(self._tasks):
             task.cancel()
 
@@ -94,6 +97,12 @@ class MotionScriptServer(LanguageServer):
         self.folders.set_client(params.initialization_options)
         if params.process_id is not None and sys.platform != "win32":
             self._soon(self._watch_client(params.process_id))
+
+    def fit(self, capabilities: types.ServerCapabilities) -> None:
+        """Tell of commands; and not of answering for diagnostics where a client is told of them unasked."""
+        capabilities.execute_command_provider = types.ExecuteCommandOptions(list(COMMANDS), work_done_progress=True)
+        if not self.documents.client.pulls:
+            capabilities.diagnostic_provider = None
 
     def begun(self, _params: types.InitializedParams) -> None:
         """Get ready, and ask the client for what it can be asked for."""
@@ -161,7 +170,7 @@ class MotionScriptServer(LanguageServer):
         for document in users:
             self.documents.analyse(document, afresh=True)
         if users:
-            self._ask_to_pull()
+            self._refresh()
 
     # --- libraries and settings ---
 
@@ -205,7 +214,7 @@ class MotionScriptServer(LanguageServer):
         for document in self.documents.all():
             if document.analysis is not None and not document.analysis.definitions.complete:
                 self.documents.analyse(document, afresh=True)
-        self._ask_to_pull()
+        self._refresh()
 
     def _look_again(self) -> None:
         for document in self.documents.all():
@@ -234,14 +243,14 @@ class MotionScriptServer(LanguageServer):
         document.found.set()
         if is_another and document.begun:
             self.documents.analyse(document, afresh=True)
-            self._ask_to_pull()
+            self._refresh()
 
     def _say_once(self, kind: types.MessageType, message: str) -> None:
         if message not in self._said:
             self._said.add(message)
             self.window_show_message(types.ShowMessageParams(kind, message))
 
-    # --- diagnostics ---
+    # --- what the client is told of unasked ---
 
     async def _publish(self, document: Document) -> None:
         """Tell the client what there is to say of a text, if it does not ask for that."""
@@ -256,13 +265,23 @@ class MotionScriptServer(LanguageServer):
             types.PublishDiagnosticsParams(document.uri, found, version=snapshot.version)
         )
 
-    def _ask_to_pull(self) -> None:
-        """Let a client that asks for diagnostics ask again."""
-        client = self.documents.client
-        if client.pulls and client.refreshes:
-            self._soon(self.workspace_diagnostic_refresh_async(None))
+    def _refresh(self, *names: str) -> None:
+        """Let a client ask again for what it has asked for before, of all texts: for these, or all that there is."""
+        asking = {
+            "diagnostics": self.workspace_diagnostic_refresh_async,
+            "code_lens": self.workspace_code_lens_refresh_async,
+            "inlay_hint": self.workspace_inlay_hint_refresh_async,
+            "semantic_tokens": self.workspace_semantic_tokens_refresh_async,
+        }
+        for name, ask in asking.items():
+            if name in self.documents.client.refreshed and (not names or name in names):
+                self._soon(ask(None))
 
     # --- requests ---
+
+    async def execute(self, params: types.ExecuteCommandParams) -> Any:
+        """Execute a command; see `executing`."""
+        return await self.executor.execute(params)
 
     async def snapshot(self, uri: str) -> Snapshot:
         """Return an open text with all that is known of it.
@@ -281,7 +300,7 @@ class MotionScriptServer(LanguageServer):
         """Begin some work that goes on by itself; a client that does not do as asked is no failure of it."""
 
         async def done() -> None:
-            with suppress(JsonRpcContentModified, ConnectionError):
+            with suppress(JsonRpcException, ConnectionError):
                 await work
 
         task = asyncio.ensure_future(done())

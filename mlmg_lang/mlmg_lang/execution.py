@@ -35,6 +35,21 @@ def _body(statements: Iterable[Statement], draws: Random) -> Iterator[Step]:
                 yield statement
 
 
+def expected_steps(statements: Iterable[Statement]) -> float:
+    """Return how many statements are executed, on average over what may be drawn."""
+    return sum(map(_expected, statements))
+
+
+def _expected(statement: Statement) -> float:
+    match statement:
+        case Repeat(count, body, rounds=rounds):
+            return sum(map(expected_steps, rounds)) if rounds else count * expected_steps(body)
+        case Choose(branches):
+            total = sum(branch.weight for branch in branches)
+            return sum(branch.weight / total * expected_steps(branch.body) for branch in branches)
+    return 1.0
+
+
 def _drawn(branches: tuple[Branch, ...], share: float) -> Branch:
     """Return the branch at a share, from 0 to below 1, of the sum of all weights."""
     sums = list(accumulate(branch.weight for branch in branches))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from copy import copy
 from dataclasses import dataclass, replace
 from random import Random
@@ -66,15 +66,23 @@ class Stage:
         """Return the same character, to go on by itself."""
         return replace(self, performer=self.performer.copy(), draws=copy(self.draws))
 
-    def play(self, plan: ResolvedPlan) -> tuple[Executed, ...]:
+    def play(self, plan: ResolvedPlan, told: Callable[[], object] = lambda: None) -> tuple[Executed, ...]:
         """Execute all statements of a plan, which was resolved for what is playing now.
+
+        Parameters
+        ----------
+        told : called after each.
 
         Raises
         ------
         ScriptError
             With the line of the statement that cannot be played; the stage is then of no more use.
         """
-        return tuple(self._execute(statement, plan) for statement in executed(plan, self.draws))
+        steps = []
+        for statement in executed(plan, self.draws):
+            steps.append(self._execute(statement, plan))
+            told()
+        return tuple(steps)
 
     def finish(self) -> Timeline:
         """Play a last command that has neither `for` nor `once` to the end of its clip, and return all that is played.

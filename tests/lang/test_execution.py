@@ -11,7 +11,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mlmg_lang.execution import drawing, executed
+from mlmg_lang.execution import drawing, executed, expected_steps
 from mlmg_lang.planning.resolved import Branch, Choose, End, Repeat, ResolvedPlan, Seconds, Statement, Wait
 from mlmg_lang.source import Source, Span
 
@@ -155,3 +155,11 @@ def test_a_choice_takes_one_number_whenever_it_is_executed() -> None:
 def test_loops_take_no_numbers() -> None:
     draw = choose([say("a")], [say("b")])
     assert words(repeat(30, draw), seed=5) == words(*[draw] * 30, seed=5) == words(repeat(3, repeat(10, draw)), seed=5)
+
+
+def test_how_many_statements_are_executed_is_known_on_average() -> None:
+    often = choose([say("a"), say("b")], [], weights=[3, 1])
+    assert expected_steps([say("a"), repeat(3, say("b"), say("c")), repeat(0, say("d"))]) == 7
+    assert expected_steps([often, repeat(2, often)]) == 4.5
+    one, other = (say("a"),), (say("b"), say("c"))
+    assert expected_steps([Repeat(2, one, NOWHERE, rounds=(one, other))]) == 3

@@ -8,7 +8,7 @@ import sys
 import pytest
 
 URI = "untitled:Untitled-1"
-PULLING = {"textDocument": {"diagnostic": {}}}
+PULLING = {"textDocument": {"diagnostic": {}}, "workspace": {"diagnostics": {"refreshSupport": True}}}
 PUSHED = {
     "textDocument": {"publishDiagnostics": {"relatedInformation": True, "tagSupport": {"valueSet": [1]}}},
     "window": {"workDoneProgress": True},
@@ -284,7 +284,7 @@ def test_a_library_that_is_broken_and_then_built_is_told_of_once_and_then_used(s
 
 def test_a_client_that_asks_for_diagnostics_is_told_to_ask_again(start, tmp_path, demo_library):
     client = start("--stdio")
-    client.initialize(PULLING | {"workspace": {"diagnostics": {"refreshSupport": True}}})
+    client.initialize(PULLING)
     script, settings = (tmp_path / "a.ms").as_uri(), tmp_path / "mlmg.toml"
     client.open(script, "WLAK")
     asked = {"textDocument": {"uri": script}}
@@ -294,6 +294,19 @@ def test_a_client_that_asks_for_diagnostics_is_told_to_ask_again(start, tmp_path
     client.wait(lambda one: one.get("method") == "workspace/diagnostic/refresh")
     client.wait(lambda one: one.get("method") == "workspace/diagnostic/refresh")
     assert [one["code"] for one in client.ask("textDocument/diagnostic", asked)["items"]] == ["MS021"]
+
+
+def test_a_client_that_asks_but_cannot_be_told_to_ask_again_is_told(start, tmp_path, demo_library):
+    client = start("--stdio")
+    told = client.initialize({"textDocument": {"diagnostic": {}}})["capabilities"]
+    assert "diagnosticProvider" not in told
+    assert "diagnosticProvider" in start().initialize(PULLING)["capabilities"]
+    script, settings = (tmp_path / "a.ms").as_uri(), tmp_path / "mlmg.toml"
+    client.open(script, "WLAK")
+    assert client.diagnostics(script) == []
+    settings.write_text(f'library = "{demo_library.path.as_posix()}"', encoding="utf-8")
+    client.notify("workspace/didChangeWatchedFiles", {"changes": [{"uri": settings.as_uri(), "type": 1}]})
+    assert [one["code"] for one in client.diagnostics(script)] == ["MS021"]
 
 
 def test_used_files_count_as_they_stand_in_the_editor_and_on_disk(start, tmp_path):

@@ -5,7 +5,7 @@ This table is all that `initialize` needs. The modules are imported after it, to
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from importlib import import_module
 from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
@@ -70,6 +70,7 @@ FEATURES: Final[tuple[tuple[str, Any, str], ...]] = (
         types.SignatureHelpOptions(trigger_characters=["(", ","]),
         "navigation.signature_help",
     ),
+    (types.TEXT_DOCUMENT_CODE_LENS, None, "code_lens.code_lens"),
     (types.TEXT_DOCUMENT_DOCUMENT_SYMBOL, None, "structure.document_symbol"),
     (types.TEXT_DOCUMENT_FOLDING_RANGE, None, "structure.folding_range"),
     (types.TEXT_DOCUMENT_SELECTION_RANGE, None, "structure.selection_range"),
@@ -78,6 +79,14 @@ FEATURES: Final[tuple[tuple[str, Any, str], ...]] = (
     (types.TEXT_DOCUMENT_SEMANTIC_TOKENS_RANGE, LEGEND, "structure.semantic_tokens_range"),
 )
 """By method: what the client is told of it, and what answers a request about a text."""
+
+COMMANDS: Final[Mapping[str, str]] = {
+    "mlmg.play": "execute_command.play",
+    "mlmg.explain": "execute_command.explain",
+    "mlmg.candidates": "execute_command.candidates",
+    "mlmg.rule": "execute_command.rule",
+}
+"""By command of workspace/executeCommand, what does it; imported when it is first asked for."""
 
 RESOLVING: Final[tuple[tuple[str, str], ...]] = (
     (types.COMPLETION_ITEM_RESOLVE, "completion.resolve"),

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import json
 import sys
 import time
 from collections.abc import Callable, Sequence
@@ -180,7 +179,7 @@ def _play(arguments: argparse.Namespace, inputs: Inputs, libraries: Libraries, s
     performance = perform(plan, library, arguments.seed, arguments.fps, arguments.blend, arguments.feet)
     _write(performance, arguments.output, arguments.report)
     if arguments.output != "-":
-        sum_up(f"{arguments.output}: {_summary(performance.report)}")
+        sum_up(f"{arguments.output}: {performance.summary}")
     return DONE
 
 
@@ -228,22 +227,13 @@ def _write(performance: Performance, output: str, report: str | None) -> None:
         _write_report(performance.report, report)
 
 
-def _summary(report: dict[str, Any]) -> str:
-    """Return how long a motion is, and how much of it leads from one command to the next."""
-    n_frames, rate = report["n_frames"], report["frame_rate"]
-    under_way = sum(command["arrive"] - command["begin"] for command in report["commands"])
-    return f"{n_frames} frames, {n_frames / rate:.1f} s, {under_way / rate:.1f} s of them on the way between motions"
-
-
 def _write_report(report: dict[str, Any], path: str) -> None:
-    from mlmg_runtime.files import atomic_output
+    from mlmg_lang.perform import report_text, write_report
 
-    text = json.dumps(report, ensure_ascii=False, indent=1) + "\n"
     if path == "-":
-        sys.stdout.write(text)
-        return
-    with atomic_output(path) as temporary:
-        temporary.write_text(text, encoding="utf-8")
+        sys.stdout.write(report_text(report))
+    else:
+        write_report(report, path)
 
 
 if __name__ == "__main__":
