@@ -13,8 +13,10 @@ from __future__ import annotations
 
 import argparse
 import sys
+from typing import get_args
 
 from mlmg_lang.commands.console import DONE, UsageError, add_use_option
+from mlmg_lsp.positions import Encoding
 
 _LOOPBACK = ("127.0.0.1", "localhost", "::1")
 
@@ -29,6 +31,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--library",
         metavar="L.mlmg",
         help="the library of all scripts, whatever a client or an mlmg.toml says; demo is the demo library",
+    )
+    parser.add_argument(
+        "--position-encoding",
+        choices=get_args(Encoding),
+        default="utf-16",
+        help="what a client counts characters in that does not say so itself; the protocol has it that this is utf-16",
     )
     add_use_option(parser)
 
@@ -46,7 +54,8 @@ def run(arguments: argparse.Namespace) -> int:
     logging.getLogger("pygls").setLevel(logging.CRITICAL)
     # The thread that reads messages gets its turn sooner beside those that work.
     sys.setswitchinterval(0.001)
-    settings, shelf = Settings(arguments.library, tuple(arguments.allow_use)), Shelf()
+    shelf = Shelf()
+    settings = Settings(arguments.library, tuple(arguments.allow_use), arguments.position_encoding)
 
     def build() -> transports.Server:
         return build_server(settings, shelf)

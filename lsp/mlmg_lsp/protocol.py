@@ -18,12 +18,20 @@ from pygls.exceptions import (
 )
 from pygls.protocol import LanguageServerProtocol, lsp_method
 
+from mlmg_lsp.positions import Encoding
+
 _log = logging.getLogger(__name__)
 
 
 class Texts(typing.Protocol):
-    """What is told of texts, of commands, and of the end."""
+    """What is told of texts, of commands, and of the end.
 
+    Attributes
+    ----------
+    encoding : what a client counts characters in that does not say so.
+    """
+
+    encoding: Encoding
     orderly: bool
     ended: asyncio.Event
 
@@ -90,7 +98,10 @@ class Protocol(LanguageServerProtocol):
 
     @lsp_method(types.INITIALIZE)
     def lsp_initialize(self, params: types.InitializeParams) -> Generator[Any, Any, types.InitializeResult]:
-        """Answer with what can be done for the client."""
+        """Answer with what can be done for the client; what it counts characters in is filled in if it does not say."""
+        general = params.capabilities.general or types.GeneralClientCapabilities()
+        general.position_encodings = general.position_encodings or [self._texts.encoding]
+        params.capabilities.general = general
         result = yield from super().lsp_initialize(params)
         self._texts.fit(result.capabilities)
         return result

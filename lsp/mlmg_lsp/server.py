@@ -46,6 +46,7 @@ class MotionScriptServer(LanguageServer):
 
     Attributes
     ----------
+    encoding : what the client counts characters in, if it does not say so.
     ended : set when the client has ended it, or is no longer there. orderly : whether it has said that it would.
     """
 
@@ -54,6 +55,7 @@ class MotionScriptServer(LanguageServer):
     def __init__(self, settings: Settings, shelf: Shelf) -> None:
         """Take the settings of the command, and the libraries that are open in this process."""
         super().__init__("mlmg lsp", version("mlmg"), protocol_cls=Protocol)
+        self.encoding = settings.encoding
         self.ended = asyncio.Event()
         self.orderly = False
         self.folders = Workspace(settings, shelf)

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 from mlmg_lang.libraries import DEMO, Progress, find_library
 from mlmg_lsp.documents import Document, Documents, OpenFiles, path_of
 from mlmg_lsp.libraries import Shelf, Shelved
+from mlmg_lsp.positions import Encoding
 from mlmg_lsp.work import off_loop
 
 if TYPE_CHECKING:
@@ -26,10 +27,12 @@ class Settings:
     ----------
     library : the path of a library, from the folder that a script is in the workspace by; or `demo`.
     allowed : folders outside, from which scripts may use files.
+    encoding : what a client counts characters in that does not say so; only the command can set it.
     """
 
     library: str | None = None
     allowed: tuple[str, ...] = ()
+    encoding: Encoding = "utf-16"
 
     def with_those_of(self, client: Any) -> Settings:
         """Return settings with those of a client, if it has sent any; what is not as it should be is passed over."""
@@ -42,7 +45,7 @@ class Settings:
 
     def over(self, others: Settings) -> Settings:
         """Return settings in which these come before others."""
-        return Settings(self.library or others.library, (*self.allowed, *others.allowed))
+        return Settings(self.library or others.library, (*self.allowed, *others.allowed), self.encoding)
 
 
 class Workspace:

@@ -62,6 +62,20 @@ def test_the_first_encoding_of_the_client_that_is_known_is_taken(start):
     assert told["capabilities"]["positionEncoding"] == "utf-32"
 
 
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-32"])
+def test_what_a_client_counts_in_that_does_not_say_so_can_be_set(start, encoding):
+    client = start("--position-encoding", encoding)
+    assert client.initialize()["capabilities"]["positionEncoding"] == encoding
+    client.open(URI, '("走路😀" or (')
+    (found,) = client.diagnostics(URI)
+    assert found["range"]["start"]["character"] == encoded_length('("走路😀" or (', encoding)
+
+
+def test_what_a_client_says_that_it_counts_in_comes_before_what_is_set(start):
+    told = start("--position-encoding", "utf-8").initialize({"general": {"positionEncodings": ["utf-32"]}})
+    assert told["capabilities"]["positionEncoding"] == "utf-32"
+
+
 @pytest.mark.parametrize("text", ["", "IDLE", "\r\n", "# 走"], ids=repr)
 def test_a_text_without_a_mistake_is_told_to_have_none(start, text):
     client = start()

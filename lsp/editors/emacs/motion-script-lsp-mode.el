@@ -6,7 +6,8 @@
 (with-eval-after-load 'lsp-mode
   (add-to-list 'lsp-language-id-configuration '(motion-script-mode . "motion-script"))
   (lsp-register-client
-   (make-lsp-client :new-connection (lsp-stdio-connection '("mlmg" "lsp" "--stdio"))
+   (make-lsp-client :new-connection (lsp-stdio-connection
+                                     '("mlmg" "lsp" "--stdio" "--position-encoding" "utf-32"))
                     :activation-fn (lsp-activate-on "motion-script")
                     :server-id 'mlmg)))
 (add-hook 'motion-script-mode-hook #'lsp-deferred)

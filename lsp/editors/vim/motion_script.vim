@@ -13,7 +13,7 @@ call ale#linter#Define('motion-script', {
 \   'name': 'mlmg',
 \   'lsp': 'stdio',
 \   'executable': 'mlmg',
-\   'command': '%e lsp --stdio',
+\   'command': '%e lsp --stdio --position-encoding utf-8',
 \   'language': 'motion-script',
 \   'project_root': function('MotionScriptRoot'),
 \})
