@@ -26,6 +26,7 @@ if TYPE_CHECKING:
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the command's arguments."""
     parser.add_argument("library", metavar="L.mlmg", nargs="?", help="the library to play on")
+    parser.add_argument("--library", metavar="L.mlmg", dest="named", help="the same, as other commands have it")
     parser.add_argument(
         "-c", "--command", metavar="LINE", action="append", default=[], help="say this line; may be given again"
     )
@@ -56,7 +57,7 @@ def _conversation(arguments: argparse.Namespace) -> Conversation:
     from mlmg_lang.script_files import used_files
     from mlmg_lang.session.session import Session
 
-    library = library_or_demo(named_library("-", arguments.library), "mlmg repl")
+    library = library_or_demo(named_library("-", arguments.library or arguments.named), "mlmg repl")
     try:
         session = Session(library, arguments.start, arguments.seed, used_files("-", arguments.allow_use))
     except ValueError as error:

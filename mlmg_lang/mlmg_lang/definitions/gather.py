@@ -68,7 +68,7 @@ class Used:
     ----------
     source : the script, with these files.
     complete : False if one could not be used.
-    earlier : the files that came with the source: their definitions stand before its own.
+    earlier : the files that came with the source: of their definitions the last of a name holds.
     named : by the place of a path, the name of the file that it leads to.
     """
 
@@ -111,9 +111,11 @@ def gather(source: Source, script: syntax.Script, files: Files) -> Gathered:
 
 
 def gather_with(script: syntax.Script, used: Used) -> Gathered:
-    """Return the definitions of a script that uses these files."""
-    lets: dict[str, syntax.Let] = {}
-    twice = [one for part in (*used.earlier, script, *used.scripts) for one in _defined(part, lets)]
+    """Return the definitions of a script that uses these files; they take the place of earlier ones."""
+    earlier = {normal(item.name.text): item for part in used.earlier for item in _lets(part) if item.name.sound}
+    own: dict[str, syntax.Let] = {}
+    twice = [one for part in (script, *used.scripts) for one in _defined(part, own)]
+    lets = earlier | own
     found, wrong = signatures(lets)
     return Gathered(Definitions(lets, found, used.complete), used, (*used.diagnostics, *twice, *wrong))
 

@@ -12,7 +12,7 @@ from typing import Final
 
 from mlmg_lang.analysis import Analysis, Question
 from mlmg_lang.definitions.gather import Files, NoFiles
-from mlmg_lang.diagnostics import Diagnostic
+from mlmg_lang.diagnostics import Diagnostic, has_errors
 from mlmg_lang.front_end import analyse_for
 from mlmg_lang.parsing import syntax
 from mlmg_lang.parsing.tokens import CONTINUES
@@ -233,7 +233,8 @@ def _of_entry(analysis: Analysis, before: str | None) -> Analysis:
 
 
 def _own(diagnostics: Collection[Diagnostic], analysis: Analysis) -> tuple[Diagnostic, ...]:
+    """Leave out what has been said of earlier entries, but for those that a new definition makes wrong."""
     end = len(analysis.source.text)
-    return tuple(
-        one for one in diagnostics if one.code not in _OF_WHOLE_SCRIPTS and (one.span is None or one.span.start <= end)
-    )
+    told = [one for one in diagnostics if one.code not in _OF_WHOLE_SCRIPTS]
+    own = tuple(one for one in told if one.span is None or one.span.start <= end)
+    return own if has_errors(own) else (*own, *(one for one in told if one.severity == "error"))

@@ -205,6 +205,12 @@ def test_a_saved_script_says_how_to_play_it_and_plays_the_same(say: Say, tmp_pat
     assert len(again.bvh.frames) == len(bvh.read(tmp_path / "walk.bvh").frames)
 
 
+def test_a_script_that_is_saved_loaded_and_saved_again_tells_once_how_to_play_it(say: Say, tmp_path: Path) -> None:
+    say("WALK for 1 sec", f".save {tmp_path / 'a.ms'}")
+    say(f".load {tmp_path / 'a.ms'}", f".save {tmp_path / 'b.ms'}")
+    assert (tmp_path / "b.ms").read_text(encoding="utf-8").count("# mlmgc") == 1
+
+
 def test_a_script_is_loaded_as_one_entry(say: Say, conversation: Conversation, tmp_path: Path) -> None:
     (tmp_path / "a.ms").write_text("WALK for 1 sec\nWALK\n  with Upper-Body TALK\n", encoding="utf-8")
     assert say(f".load {tmp_path / 'a.ms'}").ok

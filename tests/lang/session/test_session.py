@@ -90,10 +90,28 @@ def test_definitions_are_known_in_later_entries_and_nothing_is_said_of_them_ther
     assert answer.deeds[0].text == "GREET(IDLE) for 1 sec"
 
 
-def test_a_name_is_defined_once(says: Says) -> None:
-    session = says("let A = WALK")
-    answer = session.enter("let A = IDLE")
+def test_a_name_is_defined_once_in_an_entry(says: Says) -> None:
+    answer = says("IDLE for 1 sec").enter("let A = WALK\nlet A = IDLE")
     assert [one.code for one in answer.diagnostics] == ["MS050"]
+
+
+def test_a_definition_takes_the_place_of_an_earlier_one_also_in_those_that_use_it(says: Says) -> None:
+    session = says("let A = WALK", "let B = A", "let A = Talk_02")
+    assert session.enter("let A = Talk_01").diagnostics == ()
+    session.enter("B for 1 sec")
+    assert session.stage.performer.motion("Full-Body") == "Talk_01"
+    session.undo()
+    session.undo()
+    session.enter("B for 1 sec")
+    assert session.stage.performer.motion("Full-Body") == "Talk_02"
+
+
+def test_what_no_longer_fits_a_definition_is_told_of_when_it_is_used(says: Says) -> None:
+    session = says("let A(x) = x", "let B = A(WALK)", "let A(x, y) = x with Upper-Body y")
+    answer = session.enter("B for 1 sec")
+    (told,) = answer.diagnostics
+    assert answer.source.slice(told.span) == "A(WALK)"
+    assert session.enter("A(WALK, TALK) for 1 sec").diagnostics == ()
 
 
 def test_cycles_of_wait_are_those_of_the_command_in_an_earlier_entry(says: Says, demo_library: Library) -> None:

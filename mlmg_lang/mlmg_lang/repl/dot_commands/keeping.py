@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import shlex
 import tempfile
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 from mlmg_lang.definitions.gather import Files
 from mlmg_lang.libraries import DEMO, is_demo
@@ -22,6 +23,10 @@ from mlmg_runtime.files import atomic_output
 
 if TYPE_CHECKING:
     from mlmg_lang.perform import Performance
+
+
+_HEADING: Final = re.compile(r"^# mlmgc \S.* -o \S.* --start \S.*\n", re.MULTILINE)
+"""What a script begins with that was saved, and loaded since."""
 
 
 def save(desk: Desk, argument: str) -> Reply:
@@ -147,7 +152,7 @@ def _headed(script: SavedScript, desk: Desk, path: Path) -> str:
     words += ["--blend", settings.blend] if settings.blend is not None else []
     words += ["--fps", f"{settings.fps:g}"] if settings.fps is not None else []
     words += [] if settings.feet else ["--no-feet"]
-    return f"# {shlex.join(words)}\n{script.text}"
+    return f"# {shlex.join(words)}\n{_HEADING.sub('', script.text)}"
 
 
 def _library_from(session: Session, script: Path) -> str:
