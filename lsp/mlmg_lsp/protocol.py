@@ -19,6 +19,7 @@ from pygls.exceptions import (
 from pygls.protocol import LanguageServerProtocol, lsp_method
 
 from mlmg_lsp.positions import Encoding
+from mlmg_lsp.written import Written
 
 _log = logging.getLogger(__name__)
 
@@ -86,6 +87,19 @@ class Protocol(LanguageServerProtocol):
             super()._handle_request(msg_id, method_name, params)
             return
         self._send_response(msg_id, None, error.to_response_error())
+
+    def _send_response(self, msg_id: Any, result: Any = None, error: Any = None) -> None:
+        if error is None and isinstance(result, Written):
+            self._result_types.pop(msg_id, None)
+            self._write(f'{{"id":{json.dumps(msg_id)},"jsonrpc":"{self.VERSION}","result":{result.text}}}')
+        else:
+            super()._send_response(msg_id, result, error)
+
+    def _write(self, body: str) -> None:
+        """Send a message as it is; all in it is ASCII."""
+        if self.writer is not None:
+            head = f"Content-Length: {len(body)}\r\n\r\n" if self._include_headers else ""
+            self.writer.write((head + body).encode("ascii"))
 
     def _handle_cancel_notification(self, msg_id: Any) -> None:
         future = self._request_futures.pop(msg_id, None)

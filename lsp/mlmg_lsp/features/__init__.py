@@ -75,8 +75,9 @@ FEATURES: Final[tuple[tuple[str, Any, str], ...]] = (
     (types.TEXT_DOCUMENT_FOLDING_RANGE, None, "structure.folding_range"),
     (types.TEXT_DOCUMENT_SELECTION_RANGE, None, "structure.selection_range"),
     (types.TEXT_DOCUMENT_INLAY_HINT, None, "structure.inlay_hint"),
-    (types.TEXT_DOCUMENT_SEMANTIC_TOKENS_FULL, LEGEND, "structure.semantic_tokens"),
-    (types.TEXT_DOCUMENT_SEMANTIC_TOKENS_RANGE, LEGEND, "structure.semantic_tokens_range"),
+    (types.TEXT_DOCUMENT_SEMANTIC_TOKENS_FULL, LEGEND, "semantic_tokens.full"),
+    (types.TEXT_DOCUMENT_SEMANTIC_TOKENS_FULL_DELTA, LEGEND, "semantic_tokens.delta"),
+    (types.TEXT_DOCUMENT_SEMANTIC_TOKENS_RANGE, LEGEND, "semantic_tokens.within"),
 )
 """By method: what the client is told of it, and what answers a request about a text."""
 

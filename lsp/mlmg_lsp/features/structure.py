@@ -1,18 +1,17 @@
-"""What a text consists of: its outline, what can be folded and selected, what each word is, small hints."""
+"""What a text consists of: its outline, what can be folded and selected, small hints."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping
 from typing import Final
 
 from lsprotocol import types
 
-from mlmg_lang.ide import folding, hints, selection, semantics, symbols
-from mlmg_lang.source import Source, Span
+from mlmg_lang.ide import folding, hints, selection, symbols
+from mlmg_lang.source import Span
 from mlmg_lsp.convert import offset_of, range_of, span_of
 from mlmg_lsp.documents import Snapshot
-from mlmg_lsp.features import DECLARATION, TOKEN_TYPES
-from mlmg_lsp.positions import EditorPosition, Encoding, position_from_offset, units_in
+from mlmg_lsp.positions import position_from_offset
 
 _SYMBOLS: Final[Mapping[symbols.Kind, types.SymbolKind]] = {
     symbols.Kind.DEFINITION: types.SymbolKind.Function,
@@ -84,46 +83,3 @@ def inlay_hint(snapshot: Snapshot, params: types.InlayHintParams) -> list[types.
         )
         for one in hints.hints(snapshot.analysis, span_of(source, params.range, encoding))
     ]
-
-
-# --- what each word is ---
-
-
-def semantic_tokens(snapshot: Snapshot, _params: types.SemanticTokensParams) -> types.SemanticTokens:
-    """Return what each word of a script is."""
-    marks = _painting(snapshot).marks()
-    return types.SemanticTokens(list(_encoded(snapshot.analysis.source, marks, snapshot.client.encoding)))
-
-
-def semantic_tokens_range(snapshot: Snapshot, params: types.SemanticTokensRangeParams) -> types.SemanticTokens:
-    """Return what each word in a stretch of a script is."""
-    source, encoding = snapshot.analysis.source, snapshot.client.encoding
-    within = span_of(source, params.range, encoding)
-    marks = (
-        mark for mark in _painting(snapshot).marks() if mark.span.end > within.start and mark.span.start < within.end
-    )
-    return types.SemanticTokens(list(_encoded(source, marks, encoding)))
-
-
-def _painting(snapshot: Snapshot) -> semantics.Painting:
-    """Return the marks of a text; what an edit has left alone is taken from the last."""
-    painting = semantics.paint(snapshot.analysis, snapshot.kept.get("painting"))
-    snapshot.kept["painting"] = painting
-    return painting
-
-
-def _encoded(source: Source, marks: Iterable[semantics.Mark], encoding: Encoding) -> Iterator[int]:
-    """Yield five numbers for each mark, counted from the one before it, as the protocol has it."""
-    starts, line, before = (*source.line_starts, len(source.text) + 1), 0, EditorPosition(0, 0)
-    plain = source.text.isascii()
-    for mark in marks:
-        while starts[line + 1] <= mark.span.start:
-            line += 1
-        lead, word = source.text[starts[line] : mark.span.start], source.text[mark.span.start : mark.span.end]
-        character = len(lead) if plain else units_in(lead, encoding)
-        yield line - before.line
-        yield character - before.character if line == before.line else character
-        yield len(word) if plain else units_in(word, encoding)
-        yield TOKEN_TYPES.index(mark.kind.value)
-        yield DECLARATION if mark.declaration else 0
-        before = EditorPosition(line, character)
