@@ -50,7 +50,7 @@ def location_of(snapshot: Snapshot, span: Span) -> types.Location:
     source = snapshot.analysis.source
     file, base = source.file(span.start)
     own = Span(span.start - base, min(span.end - base, len(file.text)))
-    place = range_of(Source(file.text, file.name), own, snapshot.client.encoding)
+    place = range_of(file, own, snapshot.client.encoding)
     return types.Location(uri_of(snapshot, file.name), place)
 
 
@@ -72,8 +72,8 @@ def source_of(snapshot: Snapshot, file: str) -> Source:
     """Return the text of a file: as it is open, or as an open script uses it, else as it is on disk."""
     known = (snapshot.analysis, *snapshot.others)
     sources = (source for one in known for source in (one.source, *one.source.used))
-    found = next((source.text for source in sources if source.name == file), None)
-    return Source(Path(file).read_bytes().decode("utf-8-sig", "replace") if found is None else found, file)
+    found = next((source for source in sources if source.name == file), None)
+    return Source(Path(file).read_bytes().decode("utf-8-sig", "replace"), file) if found is None else found
 
 
 # --- diagnostics ---

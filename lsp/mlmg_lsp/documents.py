@@ -16,6 +16,7 @@ from pygls.uris import to_fs_path
 
 from mlmg_lang.source import Source
 from mlmg_lsp.client import Client
+from mlmg_lsp.memory import settle, undisturbed, unsettle
 from mlmg_lsp.positions import EditorPosition
 from mlmg_lsp.texts import edited, lines_of
 from mlmg_lsp.work import off_loop
@@ -161,6 +162,7 @@ class Documents:
         """Let go of a text."""
         document = self._open.pop(uri, None)
         if document is not None:
+            unsettle()
             _supersede(document)
             for task in (document.task, document.finding):
                 if task is not None:
@@ -241,6 +243,8 @@ class Documents:
         ready.set_result(analysis)
         await self._told(document)
         await off_loop(lambda: analysis.ready)
+        if analysis.made.serial == 0:  # made afresh, so that nearly all of it will stay
+            settle()
 
     def _work(self, document: Document) -> Callable[[], Analysis]:
         """Return what is to be done, with all that it needs at hand: what it would ask may change meanwhile."""
@@ -250,7 +254,13 @@ class Documents:
         catalog, names = (None, None) if shelved is None else (shelved.library, shelved.names)
         if not document.stale and before is not None and before.question.catalog is catalog:
             return partial(analyse_again, before, source)
-        return partial(analyse_for, source, Question(catalog, names, None, self._files(document)))
+        question = Question(catalog, names, None, self._files(document))
+
+        def afresh() -> Analysis:
+            with undisturbed():
+                return analyse_for(source, question)
+
+        return afresh
 
     def users(self, path: Path) -> Iterator[Document]:
         """Yield the open texts that use a file."""

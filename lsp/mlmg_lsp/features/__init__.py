@@ -11,6 +11,8 @@ from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
 from lsprotocol import types
 
+from mlmg_lsp.memory import settle
+
 if TYPE_CHECKING:
     from mlmg_lsp.documents import Snapshot
 
@@ -71,7 +73,7 @@ FEATURES: Final[tuple[tuple[str, Any, str], ...]] = (
         "navigation.signature_help",
     ),
     (types.TEXT_DOCUMENT_CODE_LENS, None, "code_lens.code_lens"),
-    (types.TEXT_DOCUMENT_DOCUMENT_SYMBOL, None, "structure.document_symbol"),
+    (types.TEXT_DOCUMENT_DOCUMENT_SYMBOL, None, "outline.document_symbol"),
     (types.TEXT_DOCUMENT_FOLDING_RANGE, None, "structure.folding_range"),
     (types.TEXT_DOCUMENT_SELECTION_RANGE, None, "structure.selection_range"),
     (types.TEXT_DOCUMENT_INLAY_HINT, None, "structure.inlay_hint"),
@@ -117,3 +119,4 @@ def warm() -> None:
     before = analyse(Source("let a = B for 1 sec\nrepeat 2 {\nA with\n}\n"), Nothing())
     _ = before.ready
     _ = analyse_again(before, Source("let a = B for 2 sec\na\nA\n")).diagnostics
+    settle()

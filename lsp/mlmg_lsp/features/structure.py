@@ -1,43 +1,16 @@
-"""What a text consists of: its outline, what can be folded and selected, small hints."""
+"""What of a text can be folded and selected, and small hints in it."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
-from typing import Final
+from collections.abc import Iterable
 
 from lsprotocol import types
 
-from mlmg_lang.ide import folding, hints, selection, symbols
+from mlmg_lang.ide import folding, hints, selection
 from mlmg_lang.source import Span
 from mlmg_lsp.convert import offset_of, range_of, span_of
 from mlmg_lsp.documents import Snapshot
 from mlmg_lsp.positions import position_from_offset
-
-_SYMBOLS: Final[Mapping[symbols.Kind, types.SymbolKind]] = {
-    symbols.Kind.DEFINITION: types.SymbolKind.Function,
-    symbols.Kind.PARAMETER: types.SymbolKind.Variable,
-    symbols.Kind.FILE: types.SymbolKind.Module,
-    symbols.Kind.BLOCK: types.SymbolKind.Namespace,
-    symbols.Kind.BRANCH: types.SymbolKind.Namespace,
-    symbols.Kind.COMMAND: types.SymbolKind.Event,
-}
-
-
-def document_symbol(snapshot: Snapshot, _params: types.DocumentSymbolParams) -> list[types.DocumentSymbol]:
-    """Return the outline of a script."""
-    return [_symbol(snapshot, one) for one in symbols.document_symbols(snapshot.analysis)]
-
-
-def _symbol(snapshot: Snapshot, one: symbols.Symbol) -> types.DocumentSymbol:
-    source, encoding = snapshot.analysis.source, snapshot.client.encoding
-    return types.DocumentSymbol(
-        name=one.name,
-        kind=_SYMBOLS[one.kind],
-        range=range_of(source, one.span, encoding),
-        selection_range=range_of(source, one.selection, encoding),
-        detail=one.detail or None,
-        children=[_symbol(snapshot, child) for child in one.children],
-    )
 
 
 def folding_range(snapshot: Snapshot, _params: types.FoldingRangeParams) -> list[types.FoldingRange]:

@@ -10,6 +10,7 @@ from typing import Final
 from mlmg_lang.analysis import Analysis
 from mlmg_lang.ide.fuzzy import matching
 from mlmg_lang.parsing import syntax
+from mlmg_lang.pieces import Piece
 from mlmg_lang.source import Source, Span
 
 _LONGEST: Final = 60
@@ -61,6 +62,11 @@ def document_symbols(analysis: Analysis) -> tuple[Symbol, ...]:
     for piece, start in zip(made.pieces, made.places.starts, strict=False):
         outline += _Outliner(made.source, start - piece.address).items(piece.items)
     return tuple(outline)
+
+
+def piece_symbols(piece: Piece, text: str) -> tuple[Symbol, ...]:
+    """Return what of an outline is in a piece, with places counted from its beginning; `text`: of the piece."""
+    return tuple(_Outliner(Source(text), -piece.address).items(piece.items))
 
 
 def workspace_symbols(analyses: Iterable[Analysis], query: str) -> list[Found]:
