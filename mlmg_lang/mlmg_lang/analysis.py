@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Final, TypeVar
 
+from mlmg_lang.blocks import WholeBlock, grouped
 from mlmg_lang.catalog import Catalog
 from mlmg_lang.definitions.gather import Definitions, Files, Gathered
 from mlmg_lang.diagnostics import Diagnostic, has_errors
 from mlmg_lang.moving import moved
 from mlmg_lang.parsing import syntax
 from mlmg_lang.parsing.tokens import Token
-from mlmg_lang.pieces import Addressed, Piece, Places, all_of, starts_of
+from mlmg_lang.pieces import Piece, all_of
+from mlmg_lang.places import Addressed, Places, places_of
 from mlmg_lang.source import Source, Span
 
 if TYPE_CHECKING:
@@ -88,17 +90,21 @@ class InPieces:
     Attributes
     ----------
     source : with the files that it uses.
-    places : where the addresses of pieces are now.
+    lines : the pieces that no block lies across.
+    pieces : those of them that stand in no block, and the blocks whole.
+    places : where addresses are now.
     defined : what is wrong with its definitions. unused : which of them are not used.
     start : the motion that it starts in; empty without a library.
     resolution : what it plays, if all of it was resolved together.
-    played : else, what each piece plays, and `keys`, those of its steps; none without a library.
+    played : else, what each of `pieces` plays; none without a library.
+    keys : by line, those of its steps; none without a library, or if all was resolved together.
     room : the first address that nothing has had.
     serial : how many times pieces have changed; until they do, addresses are offsets.
     """
 
     source: Source
-    pieces: Sequence[Piece]
+    lines: Sequence[Piece]
+    pieces: Sequence[Piece | WholeBlock]
     places: Places
     gathered: Gathered
     defined: tuple[Diagnostic, ...]
@@ -110,16 +116,23 @@ class InPieces:
     room: int
     serial: int
 
-    def with_pieces(self, source: Source, pieces: Sequence[Piece], size: int) -> InPieces:
+    def with_lines(self, source: Source, lines: Sequence[Piece], size: int) -> InPieces:
         """Return another text in pieces, for which addresses have been taken; what they mean is not known yet."""
         return replace(
             self,
             source=replace(source, used=self.source.used),
-            pieces=pieces,
-            places=Places(pieces, starts_of(pieces), self.places.files),
+            lines=lines,
+            pieces=lines,
+            places=places_of(lines, lines, self.places.files),
             room=self.room + size + 1,
             serial=self.serial + 1,
         )
+
+    def grouped(self, known: Iterable[Piece | WholeBlock]) -> InPieces:
+        """Return it with the blocks that lie across its lines; some may be `known` from an earlier text."""
+        pieces, taken = grouped(self.lines, known, self.room)
+        places = places_of(self.lines, pieces, self.places.files)
+        return replace(self, pieces=pieces, places=places, room=self.room + taken)
 
     @property
     def addressed(self) -> Source:
@@ -139,7 +152,7 @@ class InPieces:
     @cached_property
     def tokens(self) -> tuple[Token, ...]:
         """Return the tokens of the script."""
-        return self.now(tuple(all_of(self.pieces, "tokens")))
+        return self.now(tuple(all_of(self.lines, "tokens")))
 
     @cached_property
     def script(self) -> syntax.Script:
@@ -149,7 +162,7 @@ class InPieces:
     @cached_property
     def expanded(self) -> syntax.Script:
         """Return the syntax tree with what its definitions say in place of their names."""
-        if all(piece.expanded is piece.items for piece in self.pieces):
+        if all(line.expanded is line.items for line in self.lines):
             return self.script
         return self._script(tuple(all_of(self.pieces, "expanded")))
 
@@ -238,14 +251,15 @@ class Analysis:
 def _ready(made: InPieces, question: Question) -> InPieces:
     if made.resolution is None or question.names is None or question.catalog is None:
         return made
-    from mlmg_lang.planning.resolve_again import Player, keyed, played_of
+    from mlmg_lang.planning.resolve_again import Player, by_piece, keyed, played_of
 
-    keys = keyed(made.pieces)
+    line_keys = keyed(made.lines)
+    keys = by_piece(line_keys, made.pieces)
     player = Player(made.pieces, made.line_of, keys, (question.names, question.catalog), made.source, made.start)
     played = player.hinted(
         played_of(made.pieces, map(made.line_of, range(len(keys))), keys, made.resolution), [range(len(keys))]
     )
-    return replace(made, resolution=None, played=played, keys=keys)
+    return replace(made, resolution=None, played=played, keys=line_keys)
 
 
 def on_lines(statement: resolved.Statement, further: int) -> resolved.Statement:

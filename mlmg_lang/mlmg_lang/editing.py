@@ -5,14 +5,17 @@ from __future__ import annotations
 from bisect import bisect_left, bisect_right
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from itertools import accumulate, chain, compress
+from operator import attrgetter, is_not
 
 from mlmg_lang.analysis import InPieces
 from mlmg_lang.definitions.gather import Definitions
 from mlmg_lang.definitions.parameters import references
 from mlmg_lang.parsing.cutting import Balance, balance, cut
+from mlmg_lang.parsing.nesting import Around, after
 from mlmg_lang.parsing.tokenize import tokenize
 from mlmg_lang.parsing.tokens import Token
-from mlmg_lang.pieces import Piece
+from mlmg_lang.pieces import Piece, read_in
 from mlmg_lang.planning.resolve_again import NOT_PLAYED, Played
 from mlmg_lang.source import Source
 from mlmg_lang.spelling import normal
@@ -58,24 +61,60 @@ class Spot:
 
 
 def reread(before: InPieces, source: Source, edit: Edit) -> Spot:
-    """Return the stretch that an edit touches, with the piece before it: what follows could go on with that."""
-    pieces, starts = before.pieces, before.places.starts
-    last_whole = min(bisect_right(starts, edit.start), len(pieces)) - 2
-    first = next((at for at in range(last_whole, -1, -1) if pieces[at].solid), 0)
-    end = min(bisect_right(starts, edit.end), len(pieces))
+    """Return the stretch that an edit touches, with the line before it: what follows could go on with that."""
+    lines, starts = before.lines, before.places.line_starts
+    last_whole = min(bisect_right(starts, edit.start), len(lines)) - 2
+    first = next((at for at in range(last_whole, -1, -1) if lines[at].solid), 0)
+    end = min(bisect_right(starts, edit.end), len(lines))
     while True:
         spot = Source(source.text[starts[first] : starts[end] + edit.further], source.name)
         tokens = tokenize(spot)
         cuts = cut(tokens)
-        wider = _wider(pieces, range(first, end), balance(tokens))
-        if wider is None and end < len(pieces) and not cuts.closed:
-            wider = range(first, min(end + 2 * (end - first), len(pieces)))
+        wider = _wider(lines, range(first, end), balance(tokens))
+        if wider is None and end < len(lines) and not cuts.closed:
+            wider = range(first, min(end + 2 * (end - first), len(lines)))
         if wider is None:
             break
         first, end = wider.start, wider.stop
     new = cuts.starts[0] if cuts.starts else len(spot.text)
-    kept = first <= last_whole and new == pieces[first].size
+    kept = first <= last_whole and new == lines[first].size
     return Spot(spot, tokens, first, end, kept)
+
+
+def around_line(lines: Sequence[Piece], number: int) -> Around:
+    """Return the braces around a line."""
+    before = lines[:number]
+    marks = chain.from_iterable(line.marks for line in compress(before, map(attrgetter("marks"), before)))
+    return after((), marks)
+
+
+class TooDeep(Exception):
+    """Braces are nested so deep that what stands in them is left out."""
+
+
+def in_other_braces(
+    lines: Sequence[Piece], first: int, around: Around, text_of: Callable[[int], str]
+) -> Iterator[tuple[int, Piece]]:
+    """Yield the lines from one on that may say something else in the braces around them now, read again.
+
+    Parameters
+    ----------
+    around : the braces around the first. text_of : gives the text of a line.
+
+    Raises
+    ------
+    TooDeep
+        If they cannot be read in these.
+    """
+    rest = lines[first:]
+    for at in compress(range(first, len(lines)), map(attrgetter("depends"), rest)):
+        if lines[at].around == around:
+            return
+        line = read_in(lines[at], text_of(at), around)
+        if line is None:
+            raise TooDeep
+        yield at, line
+        around = after(around, line.marks)
 
 
 def _wider(pieces: Sequence[Piece], spot: range, new: Balance) -> range | None:
@@ -136,60 +175,97 @@ class Change:
     Attributes
     ----------
     made : the script after it.
-    first, n_new, end : the pieces from `first` to `end` before it have become `n_new` others.
+    first, n_new, end : the lines from `first` to `end` before it have become `n_new` others.
+    again : other lines that have been read again.
     names : those that mean something else.
-    numbers : the pieces that may mean something else.
+    numbers : the lines that may mean something else.
     """
 
     made: InPieces
     first: int
     n_new: int
     end: int
+    again: Sequence[int]
     names: frozenset[str]
     numbers: Sequence[int]
 
-    @property
-    def replayed(self) -> Sequence[int]:
-        """Return the pieces that may play something else; where some are gone, the one before them."""
-        return self.numbers if self.n_new else (*self.numbers, max(self.first - 1, 0))
+    def touching(self, before: InPieces) -> Iterator[Piece]:
+        """Yield the lines that have been read again, and those before the edit that they are in place of."""
+        yield from before.lines[self.first : self.end]
+        yield from self.made.lines[self.first : self.first + self.n_new]
+        yield from (self.made.lines[at] for at in self.again)
+
+    def moves_braces(self, before: InPieces) -> bool:
+        """Return whether there may be other braces around the lines behind the edit."""
+        return any(line.marks for line in self.touching(before))
 
     def uses_the_same(self, before: InPieces) -> bool:
-        """Return whether the new pieces use the names that those before them did."""
-        new = self.made.pieces[self.first : self.first + self.n_new]
-        uses = ({(piece.used, piece.broken) for piece in part} for part in (new, before.pieces[self.first : self.end]))
+        """Return whether the new lines use the names that those before them did."""
+        new = self.made.lines[self.first : self.first + self.n_new]
+        uses = ({(line.used, line.broken) for line in part} for part in (new, before.lines[self.first : self.end]))
         return next(uses) == next(uses)
 
 
 def touched(before: InPieces, change: Change) -> list[int]:
-    """Return the pieces that may mean something else: new ones, users of what has changed, and mistakes.
+    """Return the lines that may mean something else: new ones, users of what has changed, and mistakes.
 
     A name that means nothing may be a slip of one that is defined now, or be no longer.
     """
-    pieces = change.made.pieces
-    new = range(change.first, change.first + change.n_new)
+    lines = change.made.lines
+    new = {*range(change.first, change.first + change.n_new), *change.again}
     if change.made.gathered is before.gathered:
-        return list(new)
+        return sorted(new)
     known = (list(one.gathered.definitions.lets) for one in (before, change.made))
     same = next(known) == next(known)
-    others = (at for at in range(len(pieces)) if at not in new)
+    others = (at for at in range(len(lines)) if at not in new)
     names = change.names
     return sorted(
-        (*new, *(at for at in others if (pieces[at].said and not same) or not names.isdisjoint(pieces[at].used)))
+        (*new, *(at for at in others if (lines[at].said and not same) or not names.isdisjoint(lines[at].used)))
     )
 
 
-def known_of(before: InPieces, change: Change) -> list[Played]:
-    """Return what the pieces after a change have played; of new ones, what could be playing before the first."""
-    played = before.played
-    new = [NOT_PLAYED] * change.n_new
-    if new and change.first < len(played):
-        once = played[change.first]
-        new[0] = replace(NOT_PLAYED, before=once.before, sound=once.sound)
-    return [*played[: change.first], *new, *played[change.end :]]
+@dataclass(frozen=True, slots=True)
+class PieceChange:
+    """What an edit has changed of what is played.
+
+    Attributes
+    ----------
+    known : what the pieces have played; of new ones, what could be playing before the first.
+    numbers : the pieces that may play something else; where some are gone, the one before them.
+    """
+
+    known: list[Played]
+    numbers: list[int]
+
+
+def pieces_changed(before: InPieces, change: Change) -> PieceChange:
+    """Return which pieces an edit has changed."""
+    old, new = before.pieces, change.made.pieces
+    old_ends, new_ends = (list(accumulate(map(attrgetter("n_lines"), one), initial=0)) for one in (old, new))
+    first = bisect_right(old_ends, change.first) - 1
+    further = change.first + change.n_new - change.end
+    bounds = {line: at for at, line in enumerate(new_ends)}
+    end = next(at for at in range(bisect_left(old_ends, change.end), len(old_ends)) if old_ends[at] + further in bounds)
+    new_end = bounds[old_ends[end] + further]
+    fresh = [NOT_PLAYED] * (new_end - first)
+    if fresh and first < len(before.played):
+        once = before.played[first]
+        fresh[0] = replace(NOT_PLAYED, before=once.before, sound=once.sound)
+    numbers = [
+        *(at for at in _others(old[:first], new[:first])),
+        *(range(first, new_end) if fresh else [max(first - 1, 0)]),
+        *(new_end + at for at in _others(old[end:], new[new_end:])),
+    ]
+    return PieceChange([*before.played[:first], *fresh, *before.played[end:]], numbers)
+
+
+def _others(old: Sequence[object], new: Sequence[object]) -> Iterator[int]:
+    """Yield where there is something else than before."""
+    return compress(range(len(new)), map(is_not, old, new))
 
 
 def keys_of(before: InPieces, change: Change) -> list[range]:
-    """Return the keys of the pieces after a change; new ones have none yet."""
+    """Return the keys of the lines after a change; new ones have none yet."""
     return [*before.keys[: change.first], *([range(0)] * change.n_new), *before.keys[change.end :]]
 
 

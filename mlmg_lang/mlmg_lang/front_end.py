@@ -4,22 +4,24 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from itertools import compress
 from operator import attrgetter
 from typing import TYPE_CHECKING
 
 from mlmg_lang.analysis import Analysis, Found, InPieces, Question
+from mlmg_lang.blocks import WholeBlock, grouped
 from mlmg_lang.catalog import Catalog
 from mlmg_lang.definitions.expand import MAX_ALL_NODES, Expander, unused
-from mlmg_lang.definitions.gather import Definitions, Files, Gathered, NoFiles, gather, gather_with
+from mlmg_lang.definitions.gather import Files, Gathered, NoFiles, gather, gather_with
 from mlmg_lang.diagnostics import Diagnostic
 from mlmg_lang.parsing.case import guess_case
 from mlmg_lang.parsing.lookalikes import opens_or_closes
-from mlmg_lang.parsing.parse import parse
+from mlmg_lang.parsing.parse import read_marks
 from mlmg_lang.parsing.structure import check_definition, check_structure, misplaced
 from mlmg_lang.parsing.syntax import Item, Let, Script, Use
 from mlmg_lang.parsing.tokenize import MAX_TOKENS, tokenize
-from mlmg_lang.pieces import Piece, Places, all_of, pieces_of, starts_of
+from mlmg_lang.parsing.tokens import Token
+from mlmg_lang.pieces import Piece, all_of, lines_of
+from mlmg_lang.places import places_of
 from mlmg_lang.source import Source, Span
 from mlmg_lang.suppression import suppress
 
@@ -69,15 +71,15 @@ def analyse_for(source: Source, question: Question) -> Analysis:
     source : with the files, if there are any, whose definitions the text can use without saying so.
     """
     tokens = tokenize(source)
-    parsed = parse(source, tokens)
-    gathered = gather(source, parsed.script, question.files)
+    read = lines_of(len(source.text), tokens, read_marks(source, tokens))
+    gathered = gather(source, _defining(read, grouped(read, (), 0)[0]), question.files)
     reader = _Reader(question, gathered, gathered.source)
-    read = pieces_of(len(source.text), tokens, parsed.script.items, parsed.diagnostics)
-    pieces = [reader.understood(piece) for piece in read]
+    lines = [reader.understood(line) for line in read]
     room = gathered.source.end + 1
-    places = Places(pieces, starts_of(pieces), range(len(source.text) + 1, room))
-    idle = tuple(_unused(pieces, gathered.definitions))
-    made = InPieces(gathered.source, pieces, places, gathered, reader.defined(), idle, "", None, (), (), room, 0)
+    places = places_of(lines, lines, range(len(source.text) + 1, room))
+    made = InPieces(gathered.source, lines, lines, places, gathered, reader.defined(), (), "", None, (), (), room, 0)
+    made = made.grouped(())
+    made = replace(made, unused=tuple(_unused(made)))
     found = Found(_read(made))
     if question.names is None or question.catalog is None:
         return _told(question, found, made)
@@ -158,25 +160,40 @@ class _Reader:
         return items if items != piece.items else piece.items, self._expander.all_nodes - n_nodes, said
 
 
-def _unused(pieces: Sequence[Piece], definitions: Definitions) -> Iterator[Diagnostic]:
+def _defining(lines: Sequence[Piece], pieces: Sequence[Piece | WholeBlock]) -> Script:
+    """Return the definitions of a script: those in blocks too, as they have been reported, but not the files there."""
+    lets = (item for item in all_of(lines, "defining") if not isinstance(item, Use))
+    used = (item for item in all_of(pieces, "defining") if isinstance(item, Use))
+    return Script((*lets, *used), Span(0, 0))
+
+
+def _unused(made: InPieces) -> Iterator[Diagnostic]:
     """Yield the definitions that nothing uses; what could not be read may use all."""
-    if definitions.lets and not any(map(attrgetter("broken"), pieces)):
-        used = frozenset[str]().union(*set(map(attrgetter("used"), pieces)))
-        yield from unused(all_of(pieces, "defining"), used, definitions)
+    definitions, lines = made.gathered.definitions, made.lines
+    if definitions.lets and not any(map(attrgetter("broken"), lines)):
+        used = frozenset[str]().union(*set(map(attrgetter("used"), lines)))
+        yield from unused(all_of(made.pieces, "defining"), used, definitions)
 
 
 def _read(made: InPieces) -> tuple[Diagnostic, ...]:
     """Return all that is wrong with the text, the names and the types of a script."""
-    return (*made.defined, *made.unused, *all_of(made.pieces, "told"))
+    blocks = () if made.pieces is made.lines else (piece for piece in made.pieces if isinstance(piece, WholeBlock))
+    return (*made.defined, *made.unused, *all_of(made.lines, "told"), *all_of(blocks, "told"))
 
 
 def _told(question: Question, found: Found, made: InPieces) -> Analysis:
     """Return the analysis, with what is told of what has been found."""
     complete = question.catalog is not None and not found.wrong
-    speaking = compress(made.pieces, map(attrgetter("speaks"), made.pieces)) if "mlmg" in made.source.text else ()
-    tokens = made.now(tuple(all_of(speaking, "tokens")))
-    told = _sorted(suppress(made.now(found.told), tokens, made.source, complete))
+    told = _sorted(suppress(made.now(found.told), _speaking(made), made.source, complete))
     return Analysis(told, question, found, made)
+
+
+def _speaking(made: InPieces) -> tuple[Token, ...]:
+    """Return the tokens of comments that may be meant for the compiler, of the lines these are about, and of blocks."""
+    if "mlmg" not in made.source.text or not any(map(attrgetter("speaks"), made.lines)):
+        return ()
+    lines = (line for line in made.lines if line.speaks or line.marks)
+    return made.now(tuple(all_of(lines, "tokens")))
 
 
 def _sorted(diagnostics: tuple[Diagnostic, ...]) -> tuple[Diagnostic, ...]:
@@ -207,33 +224,61 @@ def _edited(previous: Analysis, source: Source) -> Analysis | None:
 
 def _is_too_large(made: InPieces) -> bool:
     """Return whether what is defined is not put in everywhere."""
-    return bool(made.gathered.definitions.lets) and sum(map(attrgetter("n_nodes"), made.pieces)) > MAX_ALL_NODES
+    return bool(made.gathered.definitions.lets) and sum(map(attrgetter("n_nodes"), made.lines)) > MAX_ALL_NODES
 
 
 def _read_again(before: InPieces, source: Source) -> Change | None:
     """Return what an edit has changed, read but not understood; None if the script may use other files.
 
-    The same goes for signs that make comments of whatever stands between them.
+    The same goes for signs that make comments of whatever stands between them, and for braces in too many others.
     """
-    from mlmg_lang.editing import Change, changed_names, edit_between, reread
+    from mlmg_lang.editing import Change, around_line, edit_between, reread
 
     spot = reread(before, source, edit_between(before.source.text, source.text))
-    if opens_or_closes(spot.tokens):
+    around, size = around_line(before.lines, spot.first), len(spot.source.text)
+    read = read_marks(spot.source, spot.tokens, around)
+    if opens_or_closes(spot.tokens) or read.deep:
         return None
-    parsed, size = parse(spot.source, spot.tokens), len(spot.source.text)
-    new = pieces_of(size, spot.tokens, parsed.script.items, parsed.diagnostics, before.room)[int(spot.kept) :]
+    new = lines_of(size, spot.tokens, read, around, before.room)[int(spot.kept) :]
     first = spot.first + spot.kept
-    made = before.with_pieces(source, [*before.pieces[:first], *new, *before.pieces[spot.end :]], size)
-    change = Change(made, first, len(new), spot.end, frozenset(), ())
-    defining = [item for piece in (*before.pieces[first : spot.end], *new) for item in piece.defining]
+    made = before.with_lines(source, [*before.lines[:first], *new, *before.lines[spot.end :]], size)
+    return _defined_again(before, _braced_again(Change(made, first, len(new), spot.end, (), frozenset(), ())))
+
+
+def _braced_again(change: Change) -> Change | None:
+    """Return a change with what it makes of the lines behind it; None where they stand in too many braces."""
+    from mlmg_lang.editing import TooDeep, around_line, in_other_braces
+
+    made, behind = change.made, change.first + change.n_new
+    starts, lines = made.places.starts, list(made.lines)
+    around = around_line(lines, behind)
+    try:
+        found = list(in_other_braces(lines, behind, around, lambda at: made.source.text[starts[at] : starts[at + 1]]))
+    except TooDeep:
+        return None
+    for at, line in found:
+        lines[at] = line
+    if found:
+        made = replace(made, lines=lines, pieces=lines, places=replace(made.places, pieces=lines, lines=lines))
+    return replace(change, made=made, again=[at for at, _ in found])
+
+
+def _defined_again(before: InPieces, change: Change | None) -> Change | None:
+    """Return a change with the definitions of the script; None if it may use other files."""
+    from mlmg_lang.editing import changed_names
+
+    if change is None:
+        return None
+    lines = change.made.lines
+    defining = [item for line in change.touching(before) for item in line.defining]
+    items = _defining(lines, lines)
+    if any(isinstance(item, Use) for item in (*defining, *(items.items if change.moves_braces(before) else ()))):
+        return None
     if not defining:
         return change
-    if any(isinstance(item, Use) for item in defining):
-        return None
-    items = tuple(all_of(made.pieces, "defining"))
-    gathered = gather_with(Script(items, Span(0, 0)), before.gathered.used)
+    gathered = gather_with(items, before.gathered.used)
     names = changed_names(before.gathered.definitions, gathered.definitions)
-    return replace(change, made=replace(made, gathered=gathered), names=names)
+    return replace(change, made=replace(change.made, gathered=gathered), names=names)
 
 
 def _understood_again(before: InPieces, change: Change, question: Question) -> Change:
@@ -242,14 +287,14 @@ def _understood_again(before: InPieces, change: Change, question: Question) -> C
 
     made, numbers = change.made, touched(before, change)
     reader = _Reader(question, made.gathered, made.addressed)
-    pieces = list(made.pieces)
+    lines = list(made.lines)
     for number in numbers:
-        pieces[number] = reader.understood(pieces[number])
-    made = replace(made, pieces=pieces)
+        lines[number] = reader.understood(lines[number])
+    made = replace(made, lines=lines).grouped(before.pieces)
     if made.gathered is not before.gathered:
         made = replace(made, defined=reader.defined())
-    if made.gathered is not before.gathered or not change.uses_the_same(before):
-        made = replace(made, unused=tuple(_unused(pieces, made.gathered.definitions)))
+    if made.gathered is not before.gathered or change.moves_braces(before) or not change.uses_the_same(before):
+        made = replace(made, unused=tuple(_unused(made)))
     return replace(change, made=made, numbers=numbers)
 
 
@@ -257,19 +302,18 @@ def _replayed(
     library: tuple[Names, Catalog], question: Question, found: Found, before: InPieces, change: Change
 ) -> Analysis | None:
     """Return the analysis after an edit against a library; None where there is no more room for keys."""
-    from mlmg_lang.editing import keys_of, known_of, runs
+    from mlmg_lang.editing import keys_of, pieces_changed, runs
     from mlmg_lang.planning.resolve import start_of
-    from mlmg_lang.planning.resolve_again import Player, keyed_between
+    from mlmg_lang.planning.resolve_again import Player, by_piece, keyed_between
 
     made = change.made
-    keys = keyed_between(made.pieces, keys_of(before, change), runs(change.numbers), made.serial)
+    keys = keyed_between(made.lines, keys_of(before, change), runs(change.numbers), made.serial)
     if keys is None:
         return None
     start, wrong = start_of(all_of(made.pieces, "statements"), *library, question.start)
-    player = Player(made.pieces, made.line_of, keys, library, made.addressed, start)
-    played = player.replay(
-        known_of(before, change), runs(change.replayed if start == before.start else (0, *change.replayed))
-    )
+    player = Player(made.pieces, made.line_of, by_piece(keys, made.pieces), library, made.addressed, start)
+    changed = pieces_changed(before, change)
+    played = player.replay(changed.known, runs(changed.numbers if start == before.start else (0, *changed.numbers)))
     told, hints = (tuple(all_of(played, name)) for name in ("told", "hints"))
     found = replace(found, played=(*wrong, *told), hints=hints)
     return _told(question, found, replace(made, start=start, played=played, keys=keys))

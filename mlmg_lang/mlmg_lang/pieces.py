@@ -8,10 +8,10 @@ says where an address is now.
 from __future__ import annotations
 
 from bisect import bisect_left, bisect_right
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
 from functools import cached_property
-from itertools import accumulate, chain, pairwise
+from itertools import chain, pairwise
 from operator import attrgetter
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -20,24 +20,32 @@ from mlmg_lang.diagnostics import Diagnostic
 from mlmg_lang.moving import by, moved
 from mlmg_lang.parsing import syntax
 from mlmg_lang.parsing.cutting import Balance, balance, cut
+from mlmg_lang.parsing.nesting import NO_STATEMENT, Around, Mark, after, folded
+from mlmg_lang.parsing.parse import Read, read_marks
+from mlmg_lang.parsing.tokenize import tokenize
 from mlmg_lang.parsing.tokens import Token
-from mlmg_lang.source import Source, Span
+from mlmg_lang.source import Source
 
 if TYPE_CHECKING:
     from mlmg_lang.planning import typed
 
 T = TypeVar("T")
-Placed = TypeVar("Placed", Token, syntax.Item)
+Placed = TypeVar("Placed", Token, Mark)
+_STATEMENT = frozenset({""})
+"""What a block uses by itself; see `used_names`."""
 
 
 @dataclass(frozen=True)
 class Piece:
-    """What a piece says.
+    """What a piece says that no block lies across: a statement, or a line with braces that have partners in others.
 
     Attributes
     ----------
     size : in code points.
     address : of its beginning.
+    items : without the blocks that lie across it.
+    marks : its items, with what is in it of blocks that lie across it; none if there are no such blocks.
+    around : the braces that it was read in; of one that says the same in all, perhaps long ago.
     misread : what is wrong with its text.
     expanded : its items with what is defined put in. n_nodes : how large that has made them.
     statements : none without a library.
@@ -48,11 +56,27 @@ class Piece:
     address: int
     tokens: tuple[Token, ...]
     items: tuple[syntax.Item, ...]
+    marks: tuple[Mark, ...]
+    around: Around
     misread: tuple[Diagnostic, ...]
     expanded: tuple[syntax.Item, ...] = ()
     n_nodes: int = 0
     statements: tuple[typed.Statement, ...] = ()
     said: tuple[Diagnostic, ...] = ()
+
+    n_lines = 1
+    has_own_address = False
+
+    @cached_property
+    def depends(self) -> bool:
+        """Return whether it may say something else in other braces."""
+        blocks = (isinstance(item, syntax.Repeat | syntax.Choose) for item in self.items)
+        return bool(self.misread or self.marks) or any(blocks)
+
+    @cached_property
+    def deeper(self) -> int:
+        """Return how many more blocks there are around what comes after it than around it."""
+        return len(after(self.around, self.marks)) - len(self.around)
 
     @cached_property
     def told(self) -> tuple[Diagnostic, ...]:
@@ -82,7 +106,7 @@ class Piece:
     @cached_property
     def used(self) -> frozenset[str]:
         """Return the names that its statements use; see `used_names`."""
-        return used_names(self.items)
+        return used_names(self.items) | (_STATEMENT if self.marks else frozenset())
 
     @cached_property
     def broken(self) -> bool:
@@ -95,40 +119,53 @@ def _defines(item: syntax.Item) -> bool:
     return any(isinstance(node, syntax.Let | syntax.Use) for node in nodes)
 
 
-def starts_of(pieces: Sequence[Piece]) -> list[int]:
-    """Return where pieces begin, and where the last ends."""
-    return list(accumulate(map(attrgetter("size"), pieces), initial=0))
-
-
 def all_of(pieces: Iterable[object], name: str) -> Iterator[Any]:
     """Yield what pieces have in their tuples of a name, as fast as Python can: there are many with nothing in them."""
     return chain.from_iterable(map(attrgetter(name), pieces))
 
 
-def pieces_of(
-    size: int,
-    tokens: Sequence[Token],
-    items: Sequence[syntax.Item],
-    misread: Sequence[Diagnostic],
-    address: int = 0,
-) -> list[Piece]:
-    """Return the pieces of a text, read but not understood.
+def lines_of(size: int, tokens: Sequence[Token], read: Read, around: Around = (), address: int = 0) -> list[Piece]:
+    """Return the pieces of a text that no block lies across, read but not understood.
 
     Parameters
     ----------
     size : of the text, in code points.
+    around : the braces that it stands in.
     address : of its beginning; in what is given, that is 0.
     """
-    bounds = [0, *cut(tokens).starts, size]
+    bounds = [0, *(() if read.deep else cut(tokens).starts), size]
     wrong: list[list[Diagnostic]] = [[] for _ in bounds[1:]]
-    for one in misread:
+    for one in read.diagnostics:
         assert one.span is not None
         wrong[min(bisect_right(bounds, one.span.start), len(wrong)) - 1].append(one)
-    parts = zip(pairwise(bounds), _split(tokens, bounds), _split(items, bounds), wrong, strict=True)
-    return [
-        Piece(end - start, start + address, *_put((own, said, tuple(told)), address))
-        for (start, end), own, said, told in parts
-    ]
+    found = []
+    parts = zip(pairwise(bounds), _split(tokens, bounds), _split(read.marks, bounds), wrong, strict=True)
+    for (start, end), own, marks, told in parts:
+        piece = _piece(range(start + address, end + address), around, *_put((own, marks, tuple(told)), address))
+        found.append(piece)
+        around = after(around, piece.marks)
+    return found
+
+
+def read_in(line: Piece, text: str, around: Around) -> Piece | None:
+    """Return a piece as it is in other braces; None if these are nested too deep for it."""
+    source = Source(text)
+    tokens = tokenize(source)
+    read = read_marks(source, tokens, around)
+    return None if read.deep else next(iter(lines_of(len(text), tokens, read, around, line.address)))
+
+
+def _piece(
+    at: range, around: Around, tokens: tuple[Token, ...], marks: tuple[Mark, ...], misread: tuple[Diagnostic, ...]
+) -> Piece:
+    """Return a piece that has these addresses."""
+    items = tuple(mark for mark in marks if not isinstance(mark, NO_STATEMENT))
+    if len(items) == len(marks):
+        return Piece(len(at), at.start, tokens, items, (), around, misread)
+    marks, wrong = folded(marks)
+    items = tuple(mark for mark in marks if not isinstance(mark, NO_STATEMENT))
+    marks = () if len(items) == len(marks) else marks
+    return Piece(len(at), at.start, tokens, items, marks, around, (*misread, *wrong))
 
 
 def _put(values: T, address: int) -> T:
@@ -140,53 +177,3 @@ def _split(values: Sequence[Placed], bounds: Sequence[int]) -> list[tuple[Placed
     places = [value.span.start for value in values]
     at = [bisect_left(places, bound) for bound in bounds]
     return [tuple(values[first:last]) for first, last in pairwise(at)]
-
-
-@dataclass(frozen=True)
-class Places:
-    """Where addresses are now.
-
-    Attributes
-    ----------
-    starts : where the pieces begin; last, where the script ends.
-    files : the addresses of the files that are behind it.
-    """
-
-    pieces: Sequence[Piece]
-    starts: Sequence[int]
-    files: range
-
-    def __call__(self, span: Span) -> Span:
-        """Return where a span is now that may begin in one piece, and end in another."""
-        if span.start in self.files:
-            further = self.starts[-1] + 1 - self.files.start
-            return Span(span.start + further, span.end + further)
-        at = self._order[bisect_right(self._order, span.start, key=self._addresses.__getitem__) - 1]
-        further, end = self.starts[at] - self._addresses[at], self._addresses[at] + self.pieces[at].size
-        if span.end > end:
-            return Span(span.start + further, self(Span(span.end - 1, span.end)).end)
-        return Span(span.start + further, span.end + further)
-
-    @cached_property
-    def _addresses(self) -> list[int]:
-        return list(map(attrgetter("address"), self.pieces))
-
-    @cached_property
-    def _order(self) -> list[int]:
-        """Return the pieces in the order of their addresses."""
-        return sorted(range(len(self.pieces)), key=self._addresses.__getitem__)
-
-
-@dataclass(frozen=True)
-class Addressed(Source):
-    """A source that is asked for addresses in place of offsets."""
-
-    places: Callable[[Span], Span] = field(default=lambda span: span, compare=False)
-
-    def slice(self, span: Span) -> str:
-        """Return the text of a span."""
-        return super().slice(self.places(span))
-
-    def position(self, offset: int) -> tuple[int, int]:
-        """Return line and column of an address."""
-        return super().position(self.places(Span(offset, offset)).start)

@@ -67,6 +67,13 @@ USED = {
     "a.ms": 'let of_a = TALK or IDLE\nlet unlike = of_b\nuse "b.ms"\n',
     "b.ms": "let of_b = WALK\nlet y = WLAK # mlmg: ignore[MS070]\n",
 }
+BRACES = (
+    *("repeat 2 {\n", "repeat 3 { WALK for 2 sec\n", "repeat 0 {\n", "choose {\n", "choose { 2: IDLE\n", "}\n"),
+    *("} }\n", "} | {\n", "| 3: WALK for 1 sec\n", "| 0:\n", "2: WALK\n", "|\n", "{\n", "WALK {\n", "loop 2 {\n"),
+    *("let q = WALK\n", "q for 2 sec\n", "# mlmg: ignore[MS047]\n", "WALK for 0 sec\n", "WALK || IDLE\n"),
+    *("} # mlmg: ignore[MS045, MS047]\n", "repeat 200000 {\n", "repeat 1 {\n", "} repeat 2 {\n", "WALK with\n"),
+    *("choos {\n", "}; IDLE\n", "WLAK\n"),
+)
 BITS = (
     *LINES,
     *DEFINING,
@@ -79,6 +86,10 @@ LINE_EDITS = st.lists(st.tuples(st.integers(0, 10_000), st.integers(0, 2), st.sa
 DEFINING_EDITS = st.lists(
     st.tuples(st.integers(0, 10_000), st.integers(0, 2), st.sampled_from(("", *LINES, *DEFINING))), max_size=6
 )
+BRACED_EDITS = st.lists(
+    st.tuples(st.integers(0, 10_000), st.integers(0, 2), st.sampled_from(("", *LINES, *BRACES))), max_size=8
+)
+BRACED = st.lists(st.sampled_from((*LINES, *BRACES)), max_size=30).map("".join)
 GENERATED = run_path(str(Path(__file__).parent / "scripts_strategy.py"))["scripts"]()
 DEFINED = st.lists(st.sampled_from((*LINES, *DEFINING, *DEFINING)), max_size=30).map("".join)
 PLAYABLE = st.lists(st.sampled_from(LINES), max_size=30).map("".join)
@@ -137,6 +148,28 @@ def test_after_other_commands_all_is_played_as_if_analysed_afresh(
     for edit in edits:
         text = with_other_lines(text, edit)
         analysis = check(analysis, text, libraries[name], start)
+
+
+@many
+@given(text=BRACED, edits=BRACED_EDITS, name=LIBRARIES)
+def test_after_other_braces_and_what_is_in_them_all_is_as_if_analysed_afresh(
+    libraries: Mapping[str, Any], text: str, edits: list[tuple[int, int, str]], name: str
+) -> None:
+    analysis = analyse(Source(text), libraries[name], None, FILES)
+    for edit in edits:
+        text = with_other_lines(text, edit)
+        analysis = check(analysis, text, libraries[name])
+
+
+@many
+@given(text=st.one_of(BRACED, GENERATED), edits=EDITS, name=LIBRARIES)
+def test_after_any_edits_in_blocks_all_is_as_if_analysed_afresh(
+    libraries: Mapping[str, Any], text: str, edits: list[tuple[int, int, str]], name: str
+) -> None:
+    analysis = analyse(Source(text), libraries[name], None, FILES)
+    for edit in edits:
+        text = edited(text, edit)
+        analysis = check(analysis, text, libraries[name])
 
 
 @many

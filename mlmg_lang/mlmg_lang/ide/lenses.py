@@ -54,9 +54,9 @@ def lenses(analysis: Analysis) -> tuple[Lens, ...]:
 
 def _candidates(made: InPieces) -> Iterator[Lens]:
     titles = {command.span: _title(command) for command in _commands(_statements(made))}
-    for piece, start in zip(made.pieces, made.places.starts, strict=False):
-        further = start - piece.address
-        for command in _written(piece.items):
+    for line, start in zip(made.lines, made.places.line_starts, strict=False):
+        further = start - line.address
+        for command in _written(line.items):
             if command.span in titles:
                 span = Span(command.span.start + further, command.span.end + further)
                 yield Lens(span, titles[command.span], Deed.CANDIDATES, span)

@@ -148,11 +148,11 @@ def statements_at(made: InPieces, offset: int) -> list[Statement]:
 
 def _items_at(made: InPieces, offset: int) -> tuple[Sequence[syntax.Item], int]:
     """Return the items among which those at an offset are, and what makes offsets of their addresses."""
-    starts = made.places.starts
+    starts = made.places.line_starts
     if offset <= starts[-1]:
-        number = min(bisect_right(starts, offset), len(made.pieces)) - 1
-        piece = made.pieces[number]
-        return piece.items, starts[number] - piece.address
+        number = min(bisect_right(starts, offset), len(made.lines)) - 1
+        line = made.lines[number]
+        return line.items, starts[number] - line.address
     further = starts[-1] + 1 - made.places.files.start
     scripts = (*made.gathered.used.earlier, *made.gathered.used.scripts)
     address = offset - further

@@ -8,6 +8,7 @@ from typing import Final
 
 from mlmg_grammar.roles import ROLES, Role
 from mlmg_lang.analysis import Analysis
+from mlmg_lang.blocks import WholeBlock
 from mlmg_lang.parsing import syntax
 from mlmg_lang.parsing.layout import Block, Line, lay_out
 from mlmg_lang.pieces import Piece
@@ -43,7 +44,7 @@ def _nested(spans: Iterable[Span]) -> Iterator[Span]:
             yield span
 
 
-def _around(piece: Piece, address: int) -> Iterator[Span]:
+def _around(piece: Piece | WholeBlock, address: int) -> Iterator[Span]:
     """Yield what of a piece is around an address, in no order."""
     words = (token.span for token in piece.tokens if ROLES[token.type] not in _NO_WORDS)
     yield from (span for span in words if _holds(span, address))

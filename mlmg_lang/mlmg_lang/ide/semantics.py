@@ -16,6 +16,7 @@ from typing import Final
 
 from mlmg_grammar.roles import Role, roles
 from mlmg_lang.analysis import Analysis
+from mlmg_lang.blocks import WholeBlock
 from mlmg_lang.parsing.build_syntax import name_from_token
 from mlmg_lang.parsing.layout import Block, Line, lay_out
 from mlmg_lang.parsing.structure import is_sub
@@ -187,7 +188,7 @@ def _kept(previous: Painting | None, against: _Meanings) -> dict[str, Painted]:
     return {part.text: part for part in previous.parts if changed.isdisjoint(part.names)}
 
 
-def _painted(text: str, piece: Piece, against: _Meanings) -> Painted:
+def _painted(text: str, piece: Piece | WholeBlock, against: _Meanings) -> Painted:
     marks: list[Mark] = []
     names: set[str] = set()
     parameters = _parameters(piece.tokens)

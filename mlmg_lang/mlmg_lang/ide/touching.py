@@ -6,11 +6,12 @@ from bisect import bisect_right
 from collections.abc import Iterator
 
 from mlmg_lang.analysis import Analysis
+from mlmg_lang.blocks import WholeBlock
 from mlmg_lang.pieces import Piece
 from mlmg_lang.source import Span
 
 
-def pieces_touching(analysis: Analysis, within: Span) -> Iterator[tuple[Piece, int]]:
+def pieces_touching(analysis: Analysis, within: Span) -> Iterator[tuple[Piece | WholeBlock, int]]:
     """Yield the pieces that a stretch touches, each with how far from its address it stands."""
     made = analysis.made
     starts = made.places.starts

@@ -1,7 +1,8 @@
 """Tokens -> where a script may be cut so that each piece means by itself what it means in the whole.
 
 A piece is one or more whole lines: the comments and empty lines before a statement, the statement, and whatever layout
-joins to it: lines that go on, a whole block, and all between a parenthesis and its partner.
+joins to it: lines that go on, and all between a parenthesis and its partner. A block that stands on several lines is
+several pieces, which say what they say wherever they stand, but for the braces around them.
 """
 
 from __future__ import annotations
@@ -32,20 +33,18 @@ def cut(tokens: Sequence[Token]) -> Cuts:
     """Return where a text may be cut. Every piece but the last has a token that is neither comment nor line end."""
     starts: list[int] = []
     end: int | None = None
-    depth = 0
     empty = True
     meant = as_meant(tokens)
     for token, inside in zip(meant, inside_parentheses(meant), strict=True):
         kind = token.type
         if kind == "NEWLINE":
-            if depth == 0 and not inside and not empty and end is None:
+            if not inside and not empty and end is None:
                 end = token.span.end
         elif kind != "COMMENT":
             if end is not None and kind not in CONTINUES and kind != "OPEN":
                 starts.append(end)
             end, empty = None, False
-            depth = max(0, depth + (kind == "OPEN") - (kind == "CLOSE"))
-    closed = depth == 0 and bool(tokens) and tokens[-1].type == "NEWLINE"
+    closed = bool(tokens) and tokens[-1].type == "NEWLINE"
     return Cuts(tuple(starts), closed)
 
 

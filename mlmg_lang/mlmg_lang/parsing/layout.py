@@ -6,9 +6,10 @@ parenthesis without a partner holds nothing together, so that forgetting one spo
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from itertools import accumulate
+from typing import Final, TypeAlias
 
 from mlmg_lang.diagnostics import Diagnostic, Fix
 from mlmg_lang.parsing.foreign import means_choose
@@ -17,6 +18,7 @@ from mlmg_lang.source import Span
 
 MAX_DEPTH = 64
 """How deep parentheses, `not` and braces may be nested, all together in a line, or braces alone."""
+_BETWEEN: Final = frozenset({"NEWLINE", "COMMENT"})
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,15 +52,105 @@ class Layout:
     diagnostics: tuple[Diagnostic, ...]
 
 
+@dataclass(frozen=True, slots=True)
+class Open:
+    """A brace that opens a block, and what stands before it."""
+
+    head: tuple[Token, ...]
+    brace: Span
+
+    @property
+    def chooses(self) -> bool:
+        """Return whether `|` parts branches in these braces."""
+        return bool(self.head) and means_choose(self.head[0].text)
+
+    @property
+    def start(self) -> int:
+        """Return where the block begins."""
+        return self.head[0].span.start if self.head else self.brace.start
+
+
+@dataclass(frozen=True, slots=True)
+class Bar:
+    """What parts two branches."""
+
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class Close:
+    """A brace that closes a block."""
+
+    span: Span
+
+
+Mark: TypeAlias = Line | Open | Bar | Close
+
+
+@dataclass(frozen=True, slots=True)
+class Marked:
+    """A text cut into lines and what holds them.
+
+    Attributes
+    ----------
+    deep : whether braces are nested too deep: what stands in them is left out.
+    """
+
+    marks: tuple[Mark, ...]
+    diagnostics: tuple[Diagnostic, ...]
+    deep: bool
+
+
 def lay_out(tokens: Sequence[Token]) -> Layout:
     """Return the lines and blocks of a script, and what is wrong with its braces."""
-    cutter = _Cutter()
+    marked = mark(tokens)
+    end = next((token.span.end for token in reversed(tokens) if token.type not in _BETWEEN), 0)
+    items, unclosed = _nested(marked.marks, end)
+    return Layout(items, (*marked.diagnostics, *unclosed))
+
+
+def mark(tokens: Sequence[Token], around: Sequence[bool] = ()) -> Marked:
+    """Return the lines of some text, with the braces that hold them, as they stand one after the other.
+
+    Parameters
+    ----------
+    around : of the blocks that the text stands in, from the outermost, whether `|` parts branches there.
+    """
+    cutter = _Cutter(around)
     for token, inside in zip(tokens, inside_parentheses(tokens), strict=True):
         if token.type == "NEWLINE":
             cutter.line_ended = cutter.line_ended or not inside
         elif token.type != "COMMENT":
             cutter.take(token)
     return cutter.finish()
+
+
+def unclosed(brace: Span) -> Diagnostic:
+    """Return what to say of a brace that opens a block to which there is no end."""
+    return Diagnostic("MS013", "this `{` is never closed", brace, help="write `}` where its statements end")
+
+
+def _nested(marks: Iterable[Mark], end: int) -> tuple[tuple[Line | Block, ...], list[Diagnostic]]:
+    """Return lines and blocks, each in the block that it stands in, and what is wrong with those that do not end."""
+    frames = [_Frame(Open((), Span(0, 0)))]
+    for one in marks:
+        match one:
+            case Open():
+                frames.append(_Frame(one))
+            case Bar():
+                frames[-1].branches.append([])
+            case Close(span):
+                block = frames.pop().block(span.end)
+                frames[-1].branches[-1].append(block)
+            case _:
+                frames[-1].branches[-1].append(one)
+    wrong = []
+    while len(frames) > 1:
+        frame = frames.pop()
+        if frame.opened.head:  # else it is reported that the brace should not be there at all
+            wrong.append(unclosed(frame.opened.brace))
+        frames[-1].branches[-1].append(frame.block(end))
+    return tuple(frames[0].branches[0]), wrong
 
 
 def inside_parentheses(tokens: Sequence[Token]) -> Iterator[bool]:
@@ -81,24 +173,24 @@ def inside_parentheses(tokens: Sequence[Token]) -> Iterator[bool]:
 class _Frame:
     """A block that is being read, or the script itself."""
 
-    head: tuple[Token, ...]
-    brace: Span
+    opened: Open
     branches: list[list[Line | Block]] = field(default_factory=lambda: [[]])
 
-    @property
-    def chooses(self) -> bool:
-        return bool(self.head) and means_choose(self.head[0].text)
+    def block(self, end: int) -> Block:
+        branches = tuple(tuple(branch) for branch in self.branches)
+        return Block(self.opened.head, branches, self.opened.brace, Span(self.opened.start, end))
 
 
 class _Cutter:
-    """Takes one token after the other; knows the line and the blocks that are open."""
+    """Takes one token after the other; knows the line, and of the blocks that are open whether `|` parts branches."""
 
-    def __init__(self) -> None:
+    def __init__(self, around: Sequence[bool]) -> None:
         self.line_ended = False
         self._line: list[Token] = []
-        self._frames = [_Frame((), Span(0, 0))]
+        self._marks: list[Mark] = []
+        self._chooses = list(around)
         self._too_deep = 0
-        self._end = 0
+        self._was_too_deep = False
         self._diagnostics: list[Diagnostic] = []
 
     def take(self, token: Token) -> None:
@@ -110,41 +202,38 @@ class _Cutter:
         elif self._too_deep == 0:
             self._take_inside(token)
         self.line_ended = False
-        self._end = token.span.end
 
     def _take_inside(self, token: Token) -> None:
         if self.line_ended and token.type not in CONTINUES:
             self._end_line()
         if token.type == "SEMICOLON":
             self._end_line()
-        elif token.type == "BAR" and self._frames[-1].chooses:
+        elif token.type == "BAR" and self._chooses and self._chooses[-1]:
             self._end_line()
-            self._frames[-1].branches.append([])
+            self._marks.append(Bar(token.span))
         else:
             self._line.append(token)
             if token.type == "COLON" and [part.type for part in self._line] == ["INTEGER", "COLON"]:
                 self._end_line()
 
-    def finish(self) -> Layout:
-        """End what is still open, and return all."""
+    def finish(self) -> Marked:
+        """End the last line, and return all."""
         self._end_line()
-        while len(self._frames) > 1:
-            frame = self._frames[-1]
-            if frame.head:  # else it is reported that the brace should not be there at all
-                self._say("this `{` is never closed", frame.brace, "write `}` where its statements end")
-            self._end_block(self._end)
-        return Layout(tuple(self._frames[0].branches[0]), tuple(self._diagnostics))
+        return Marked(tuple(self._marks), tuple(self._diagnostics), self._was_too_deep)
 
     def _open(self, token: Token) -> None:
-        if len(self._frames) > MAX_DEPTH:
+        if len(self._chooses) >= MAX_DEPTH:
             if self._too_deep == 0:
                 message = f"braces are nested more than {MAX_DEPTH} deep here"
                 self._diagnostics.append(Diagnostic("MS005", message, token.span))
             self._too_deep += 1
+            self._was_too_deep = True
             return
         if self.line_ended and self._line:
             self._join_or_end(token)
-        self._frames.append(_Frame(tuple(self._line), token.span))
+        opened = Open(tuple(self._line), token.span)
+        self._marks.append(opened)
+        self._chooses.append(opened.chooses)
         self._line = []
 
     def _join_or_end(self, token: Token) -> None:
@@ -165,21 +254,16 @@ class _Cutter:
             self._too_deep -= 1
             return
         self._end_line()
-        if len(self._frames) == 1:
+        if not self._chooses:
             self._say("this `}` closes nothing", token.span, "take it out", Fix(token.span, "", safe=False))
         else:
-            self._end_block(token.span.end)
+            self._chooses.pop()
+            self._marks.append(Close(token.span))
 
     def _end_line(self) -> None:
         if self._line:
-            self._frames[-1].branches[-1].append(Line(tuple(self._line)))
+            self._marks.append(Line(tuple(self._line)))
             self._line = []
-
-    def _end_block(self, end: int) -> None:
-        frame = self._frames.pop()
-        start = frame.head[0].span.start if frame.head else frame.brace.start
-        branches = tuple(tuple(branch) for branch in frame.branches)
-        self._frames[-1].branches[-1].append(Block(frame.head, branches, frame.brace, Span(start, end)))
 
     def _say(self, message: str, span: Span, help: str, *fixes: Fix) -> None:
         self._diagnostics.append(Diagnostic("MS013", message, span, help=help, fixes=fixes))

@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import islice
 from typing import TYPE_CHECKING
 
 from mlmg_lang.diagnostics import Diagnostic
-from mlmg_lang.parsing import syntax
-from mlmg_lang.parsing.layout import MAX_DEPTH, Block, Line, lay_out
+from mlmg_lang.parsing import layout, syntax
+from mlmg_lang.parsing.layout import MAX_DEPTH, mark
 from mlmg_lang.parsing.lexical import check_tokens, join_quoted
 from mlmg_lang.parsing.line_parser import Stuck, read
 from mlmg_lang.parsing.lookalikes import as_meant, lookalikes
+from mlmg_lang.parsing.nesting import Around, Braces, Mark, Opened, nested
 from mlmg_lang.parsing.tokenize import MAX_TOKENS
 from mlmg_lang.parsing.tokens import Token
 from mlmg_lang.source import Source, Span
@@ -36,6 +37,20 @@ class Parsed:
     diagnostics: tuple[Diagnostic, ...]
 
 
+@dataclass(frozen=True, slots=True)
+class Read:
+    """Statements and what holds them, as they stand one after the other, with what is wrong with each.
+
+    Attributes
+    ----------
+    deep : whether braces are nested too deep: what stands in them is left out.
+    """
+
+    marks: tuple[Mark, ...]
+    diagnostics: tuple[Diagnostic, ...]
+    deep: bool
+
+
 def parse(source: Source, tokens: Sequence[Token], base: int = 0) -> Parsed:
     """Return the syntax tree of a whole file; a statement that cannot be read is `Broken` in it.
 
@@ -43,22 +58,39 @@ def parse(source: Source, tokens: Sequence[Token], base: int = 0) -> Parsed:
     ----------
     base : where the file begins whose tokens these are: the script itself, or one that it uses.
     """
+    found = read_marks(source, tokens)
+    items, wrong = nested(found.marks, end_of(tokens))
+    span = Span(base, base + len(source.file(base)[0].text))
+    return Parsed(syntax.Script(items, span), (*found.diagnostics, *wrong))
+
+
+def end_of(tokens: Sequence[Token]) -> int:
+    """Return where the last of some tokens ends that is neither comment nor line end."""
+    return next((token.span.end for token in reversed(tokens) if token.type not in ("NEWLINE", "COMMENT")), 0)
+
+
+def read_marks(source: Source, tokens: Sequence[Token], around: Around = ()) -> Read:
+    """Return what some text says, as far as that does not depend on what stands before and after it.
+
+    Parameters
+    ----------
+    around : the braces that it stands in.
+    """
     reader = _Reader(source)
     reader.diagnostics += islice(lookalikes(tokens, source), MAX_MISTAKES)
     last = tokens[-1] if len(tokens) == MAX_TOKENS else None
     tokens = join_quoted(as_meant(tokens), source)
-    layout = lay_out(tokens)
-    reader.diagnostics += [*check_tokens(tokens), *layout.diagnostics]
+    marked = mark(tokens, [braces.bars for braces in around])
+    reader.diagnostics += [*check_tokens(tokens), *marked.diagnostics]
     del reader.diagnostics[MAX_MISTAKES:]
     if last is not None:
         reader.cut_off(last)
-    items = reader.items(layout.items)
-    span = Span(base, base + len(source.file(base)[0].text))
-    return Parsed(syntax.Script(items, span), tuple(reader.diagnostics))
+    marks = tuple(reader.marks(marked.marks, around))
+    return Read(marks, tuple(reader.diagnostics), marked.deep)
 
 
 class _Reader:
-    """Makes nodes of lines and blocks, and collects what is wrong."""
+    """Makes nodes of lines and what stands before braces, and collects what is wrong."""
 
     def __init__(self, source: Source) -> None:
         self.diagnostics: list[Diagnostic] = []
@@ -70,15 +102,24 @@ class _Reader:
         message = f"a script may have at most {MAX_TOKENS:,} words and signs; what comes after this is not read"
         self._say("MS007", message, last.span, "leave some of it to another script")
 
-    def items(self, pieces: Iterable[Line | Block]) -> tuple[syntax.Item, ...]:
-        """Return the items of a body."""
-        found: list[syntax.Item] = []
-        for piece in pieces:
-            if isinstance(piece, Block):
-                found += self._block(piece)
-            else:
-                found.append(self._statement(piece.tokens))
-        return tuple(found)
+    def marks(self, marks: Iterable[layout.Mark], around: Around) -> Iterator[Mark]:
+        """Yield the nodes of lines and of what stands before braces."""
+        outside = list(around)
+        for one in marks:
+            self._in_choose = bool(outside) and outside[-1].in_choose
+            match one:
+                case layout.Open():
+                    before, opened = self._opened(one)
+                    yield from before
+                    yield opened
+                    outside.append(opened.braces)
+                case layout.Close():
+                    outside.pop()
+                    yield one
+                case layout.Line(tokens):
+                    yield _weight(tokens) or self._statement(tokens)
+                case _:
+                    yield one
 
     def _statement(self, tokens: tuple[Token, ...]) -> syntax.Item:
         """Return the statement of a line that has no braces after it."""
@@ -94,26 +135,29 @@ class _Reader:
             return syntax.Broken(node.span)
         return node
 
-    def _block(self, block: Block) -> list[syntax.Item]:
-        """Return the item of a block; or, if nothing takes it, what stands in and before it."""
-        if not block.head:
-            self._say("MS013", "this `{` has no `repeat` or `choose` before it", block.brace, "take the braces out")
-            return self._flattened(block)
-        head = self._head(block)
-        if isinstance(head, syntax.ChooseHead):
-            branches = tuple(self._branch(branch, block.span) for branch in block.branches)
-            return [syntax.Choose(head, branches, block.span)]
-        if isinstance(head, syntax.RepeatHead):
-            return [syntax.Repeat(head, self._body(block.branches[0], False), block.span)]
-        if isinstance(head, syntax.Broken):
-            return [head, *self._flattened(block)]
-        self._say("MS013", "only `repeat` and `choose` are followed by `{`", block.brace, "take the braces out")
-        return [
-            syntax.Broken(head.span) if isinstance(head, syntax.Weight) else head,
-            *self._flattened(block),
-        ]
+    def _opened(self, opened: layout.Open) -> tuple[tuple[syntax.Item, ...], Opened]:
+        """Return a brace; if nothing takes it, behind what stands before it."""
+        before, head = self._before(opened)
+        in_choose = self._in_choose if head is None else isinstance(head, syntax.ChooseHead)
+        braces, span = Braces(opened.chooses, in_choose), Span(opened.start, opened.brace.end)
+        return before, Opened(head, opened.brace, span if head else opened.brace, braces, not opened.head)
 
-    def _head(self, block: Block) -> syntax.Line | syntax.Broken:
+    def _before(
+        self, opened: layout.Open
+    ) -> tuple[tuple[syntax.Item, ...], syntax.RepeatHead | syntax.ChooseHead | None]:
+        """Return what takes a brace; if nothing does, the statement that stands before it, if there is one."""
+        if not opened.head:
+            self._say("MS013", "this `{` has no `repeat` or `choose` before it", opened.brace, "take the braces out")
+            return (), None
+        head = self._head(opened)
+        if isinstance(head, syntax.RepeatHead | syntax.ChooseHead):
+            return (), head
+        if isinstance(head, syntax.Broken):
+            return (head,), None
+        self._say("MS013", "only `repeat` and `choose` are followed by `{`", opened.brace, "take the braces out")
+        return (syntax.Broken(head.span) if isinstance(head, syntax.Weight) else head,), None
+
+    def _head(self, block: layout.Open) -> syntax.Line | syntax.Broken:
         """Return what stands before a brace, also if that is said as in other languages."""
         if block.head[0].type in ("REPEAT", "CHOOSE"):
             return self._read(block.head)
@@ -125,27 +169,6 @@ class _Reader:
         self.diagnostics.append(mistake.diagnostic)
         span = Span(block.head[0].span.start, block.head[-1].span.end)
         return syntax.Broken(span) if mistake.meant is None else self._read(mistake.meant)
-
-    def _body(self, pieces: Iterable[Line | Block], in_choose: bool) -> tuple[syntax.Item, ...]:
-        """Return the items in the braces of a `repeat` or `choose`."""
-        outside, self._in_choose = self._in_choose, in_choose
-        items = self.items(pieces)
-        self._in_choose = outside
-        return items
-
-    def _flattened(self, block: Block) -> list[syntax.Item]:
-        return [item for branch in block.branches for item in self.items(branch)]
-
-    def _branch(self, pieces: Sequence[Line | Block], block: Span) -> syntax.Branch:
-        """Return a branch of `choose`, with its weight if its first line is one."""
-        weight, first = None, pieces[0] if pieces else None
-        if isinstance(first, Line) and [token.type for token in first.tokens] == ["INTEGER", "COLON"]:
-            weight = syntax.Weight(first.tokens[0].text, Span(first.tokens[0].span.start, first.tokens[1].span.end))
-            pieces = pieces[1:]
-        body = self._body(pieces, True)
-        parts = [*([weight] if weight else []), *body]
-        span = Span(parts[0].span.start, parts[-1].span.end) if parts else Span(block.end, block.end)
-        return syntax.Branch(weight, body, span)
 
     def _read(self, tokens: tuple[Token, ...]) -> syntax.Line | syntax.Broken:
         """Return the node of a line, mended as far as one can tell what was meant."""
@@ -195,6 +218,13 @@ class _Reader:
 
     def _say(self, code: str, message: str, span: Span, help_: str) -> None:
         self.diagnostics.append(Diagnostic(code, message, span, help=help_))
+
+
+def _weight(tokens: Sequence[Token]) -> syntax.Weight | None:
+    """Return the weight that a line is, if it is one."""
+    if [token.type for token in tokens] != ["INTEGER", "COLON"]:
+        return None
+    return syntax.Weight(tokens[0].text, Span(tokens[0].span.start, tokens[1].span.end))
 
 
 def _as_names(tokens: Iterable[Token]) -> Iterable[Token]:

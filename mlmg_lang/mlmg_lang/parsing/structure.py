@@ -26,7 +26,7 @@ def misplaced(script: syntax.Script) -> Iterator[Diagnostic]:
         if isinstance(item, syntax.Repeat | syntax.Choose):
             for node in syntax.walk(item):
                 if isinstance(node, syntax.Let | syntax.Use):
-                    yield _nested(node)
+                    yield nested_definition(node)
 
 
 def check_structure(
@@ -41,6 +41,19 @@ def check_structure(
     own : the names of all definitions.
     """
     yield from _Structure(frame_rate, complete, own).body(script.items)
+
+
+def check_blocks(items: Iterable[syntax.Item]) -> Iterator[Diagnostic]:
+    """Yield what is wrong with blocks themselves, of what `check_structure` says."""
+    for item in items:
+        match item:
+            case syntax.Repeat():
+                yield from _repeat(item)
+                yield from check_blocks(item.body)
+            case syntax.Choose():
+                yield from _choose(item)
+                for branch in item.branches:
+                    yield from check_blocks(branch.body)
 
 
 def check_definition(let: syntax.Let, frame_rate: float | None = None) -> Iterator[Diagnostic]:
@@ -101,34 +114,19 @@ class _Structure:
     def body(self, items: Iterable[syntax.Item]) -> Iterator[Diagnostic]:
         for item in items:
             match item:
-                case syntax.Repeat():
-                    yield from self._repeat(item)
-                case syntax.Choose():
-                    yield from self._choose(item)
+                case syntax.Repeat(body=body):
+                    yield from _repeat(item)
+                    yield from self.body(body)
+                case syntax.Choose(branches=branches):
+                    yield from _choose(item)
+                    for branch in branches:
+                        yield from self.body(branch.body)
                 case syntax.Command():
                     yield from self._command(item)
                 case syntax.Wait(duration):
                     yield from self.duration(duration)
                 case syntax.End(graph) if is_sub(graph):
                     yield _misplaced_sub(graph)
-
-    def _repeat(self, repeat: syntax.Repeat) -> Iterator[Diagnostic]:
-        if int(repeat.head.count[:20]) == 0:
-            message, advice = "this is repeated no times", "leave it out, or say how often"
-            fix = Fix(repeat.span, "", safe=False)
-            yield Diagnostic("MS045", message, repeat.head.span, help=advice, fixes=(fix,))
-        elif n_executed((repeat,)) > MAX_EXECUTED and n_executed(repeat.body) <= MAX_EXECUTED:
-            message = f"this comes to more than {MAX_EXECUTED:,} statements, one after the other"
-            yield Diagnostic("MS048", message, repeat.head.span, help="repeat it less often")
-        yield from self.body(repeat.body)
-
-    def _choose(self, choose: syntax.Choose) -> Iterator[Diagnostic]:
-        weights = [1 if branch.weight is None else int(branch.weight.number[:20]) for branch in choose.branches]
-        if not any(weights):
-            message = "every branch has the weight 0, so none can be drawn"
-            yield Diagnostic("MS049", message, choose.head.span, help="give one of them a weight above 0")
-        for branch in choose.branches:
-            yield from self.body(branch.body)
 
     def _command(self, command: syntax.Command) -> Iterator[Diagnostic]:
         yield from self.motion(command.motion, sub=False)
@@ -207,11 +205,29 @@ class _Structure:
         yield _no_definition(call, self.own)
 
 
+def _repeat(repeat: syntax.Repeat) -> Iterator[Diagnostic]:
+    if int(repeat.head.count[:20]) == 0:
+        message, advice = "this is repeated no times", "leave it out, or say how often"
+        fix = Fix(repeat.span, "", safe=False)
+        yield Diagnostic("MS045", message, repeat.head.span, help=advice, fixes=(fix,))
+    elif n_executed((repeat,)) > MAX_EXECUTED and n_executed(repeat.body) <= MAX_EXECUTED:
+        message = f"this comes to more than {MAX_EXECUTED:,} statements, one after the other"
+        yield Diagnostic("MS048", message, repeat.head.span, help="repeat it less often")
+
+
+def _choose(choose: syntax.Choose) -> Iterator[Diagnostic]:
+    weights = [1 if branch.weight is None else int(branch.weight.number[:20]) for branch in choose.branches]
+    if not any(weights):
+        message = "every branch has the weight 0, so none can be drawn"
+        yield Diagnostic("MS049", message, choose.head.span, help="give one of them a weight above 0")
+
+
 def _is_within(part: syntax.Node, whole: syntax.Node) -> bool:
     return whole.span.start <= part.span.start and part.span.end <= whole.span.end
 
 
-def _nested(item: syntax.Let | syntax.Use) -> Diagnostic:
+def nested_definition(item: syntax.Let | syntax.Use) -> Diagnostic:
+    """Return what to say of a definition that stands in a block."""
     word = "let" if isinstance(item, syntax.Let) else "use"
     advice = "write it outside of `repeat` and `choose`; it may stand after what uses it"
     return Diagnostic("MS015", f"`{word}` stands at the top level of a script alone", item.span, help=advice)

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
+from typing import Final
 
 from mlmg_lang.definitions.expand import told_from
 from mlmg_lang.definitions.gather import Definitions
 from mlmg_lang.diagnostics import Diagnostic, has_errors
 from mlmg_lang.parsing import syntax
 from mlmg_lang.parsing.amounts import seconds_from_quantity, unit_of
+from mlmg_lang.parsing.nesting import Make
 from mlmg_lang.parsing.structure import is_sub, motion_mistakes
 from mlmg_lang.planning import typed
 from mlmg_lang.planning.binding import Scope, Unbound, graph_hints, graph_name, inexact, spelling_hints, unbound
@@ -83,19 +85,16 @@ class Planner:
             case syntax.End(graph, span):
                 planned = self._end(graph, span)
             case syntax.Repeat(head, body, span):
-                planned = typed.Repeat(_count(head.count), self.body(body), span)
-            case syntax.Choose(_, branches, span):
-                planned = typed.Choose(tuple(self._branch(branch) for branch in branches), span)
+                planned = TYPED.repeat(head, self.body(body), span)
+            case syntax.Choose(head, branches, span):
+                parts = (TYPED.branch(one.weight, self.body(one.body), one.span) for one in branches)
+                planned = TYPED.choose(head, tuple(parts), span)
         return planned
 
     def _give_up(self, span: Span) -> None:
         if self.diagnostics[-1].code != "MS006":
             message = f"more than {_MAX_MISTAKES} mistakes; the names from here on are not looked up"
             self.diagnostics.append(Diagnostic("MS006", message, span, "is this the right library?"))
-
-    def _branch(self, branch: syntax.Branch) -> typed.Branch:
-        weight = 1 if branch.weight is None else _count(branch.weight.number)
-        return typed.Branch(weight, self.body(branch.body), branch.span)
 
     def _command(self, command: syntax.Command) -> typed.Statement:
         before = len(self.diagnostics)
@@ -194,3 +193,19 @@ def _leaves(choice: typed.Choice) -> Iterator[typed.Named]:
 def _count(digits: str) -> int:
     """Return a whole number; one with too many digits for a person to have meant is cut."""
     return min(int(digits[:20]), _MAX_COUNT)
+
+
+def _repeat(head: syntax.RepeatHead, body: tuple[typed.Statement, ...], span: Span) -> typed.Statement:
+    return typed.Repeat(_count(head.count), body, span)
+
+
+def _branch(weight: syntax.Weight | None, body: tuple[typed.Statement, ...], span: Span) -> typed.Branch:
+    return typed.Branch(1 if weight is None else _count(weight.number), body, span)
+
+
+def _choose(_: syntax.ChooseHead, branches: tuple[typed.Branch, ...], span: Span) -> typed.Statement:
+    return typed.Choose(branches, span)
+
+
+TYPED: Final[Make[typed.Statement, typed.Branch]] = Make(_repeat, _branch, _choose, lambda _: ())
+"""Makes the types of blocks of those of statements; a weight that is none, which has been reported, has none."""

@@ -8,10 +8,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from itertools import accumulate, pairwise
+from itertools import accumulate, chain, pairwise
+from operator import attrgetter
 
+from mlmg_lang.blocks import WholeBlock
 from mlmg_lang.catalog import Catalog
 from mlmg_lang.diagnostics import Diagnostic
+from mlmg_lang.parsing.nesting import Opened
+from mlmg_lang.parsing.syntax import RepeatHead
 from mlmg_lang.pieces import Piece
 from mlmg_lang.planning import flow, resolved
 from mlmg_lang.planning.chart import chart
@@ -53,25 +57,25 @@ NOT_PLAYED = Played((), 1, None, False, {}, (), ())
 """In place of what is not known yet."""
 
 
-def keyed(pieces: Sequence[Piece]) -> list[range]:
-    """Return keys for the steps of all pieces."""
-    ends = list(accumulate((GAP * len(chart(piece.statements)) for piece in pieces), initial=GAP))
+def keyed(lines: Sequence[Piece]) -> list[range]:
+    """Return keys for the steps of all lines."""
+    ends = list(accumulate((GAP * _n_steps(line) for line in lines), initial=GAP))
     return [range(first, end, GAP) for first, end in pairwise(ends)]
 
 
 def keyed_between(
-    pieces: Sequence[Piece], known: Sequence[range], runs: Iterable[range], serial: int
+    lines: Sequence[Piece], known: Sequence[range], runs: Iterable[range], serial: int
 ) -> list[range] | None:
-    """Return the keys of all pieces, where some get such as none has had, between those around; None without room.
+    """Return the keys of all lines, where some get such as none has had, between those around; None without room.
 
     Parameters
     ----------
-    known : the keys so far. runs : the pieces that get others.
+    known : the keys so far. runs : the lines that get others.
     serial : how many times pieces have changed.
     """
     keys = list(known)
     for run in runs:
-        n_steps = [len(chart(pieces[at].statements)) for at in run]
+        n_steps = [_n_steps(lines[at]) for at in run]
         low = next((keys[at][-1] for at in reversed(range(run.start)) if keys[at]), 0) // _SERIALS
         after = (keys[at][0] // _SERIALS for at in range(run.stop, len(keys)) if keys[at])
         step = min((next(after, low + GAP) - low) // (sum(n_steps) + 1), _STEP)
@@ -82,8 +86,25 @@ def keyed_between(
     return keys
 
 
+def by_piece(keys: Sequence[range], pieces: Sequence[Piece | WholeBlock]) -> Sequence[Sequence[int]]:
+    """Return the keys of the steps of pieces, from those of the lines."""
+    if len(keys) == len(pieces):
+        return keys
+    ends = list(accumulate(map(attrgetter("n_lines"), pieces), initial=0))
+    return [
+        keys[first] if end == first + 1 else tuple(chain.from_iterable(keys[first:end]))
+        for first, end in pairwise(ends)
+    ]
+
+
+def _n_steps(line: Piece) -> int:
+    """Return how many steps a line has."""
+    heads = sum(isinstance(mark, Opened) and isinstance(mark.head, RepeatHead) for mark in line.marks)
+    return heads + len(chart(line.statements))
+
+
 def played_of(
-    pieces: Sequence[Piece], lines: Iterable[int], keys: Sequence[range], resolution: Resolution
+    pieces: Sequence[Piece | WholeBlock], lines: Iterable[int], keys: Sequence[Sequence[int]], resolution: Resolution
 ) -> list[Played]:
     """Return what pieces play that have been resolved together, without hints.
 
@@ -115,9 +136,9 @@ class Player:
     start : the motion that the script starts in.
     """
 
-    pieces: Sequence[Piece]
+    pieces: Sequence[Piece | WholeBlock]
     line_of: Callable[[int], int]
-    keys: Sequence[range]
+    keys: Sequence[Sequence[int]]
     library: tuple[Names, Catalog]
     source: Source
     start: str
@@ -201,6 +222,6 @@ def _sound_before(at: int, known: Sequence[Played]) -> int:
     return next((n for n in range(min(at, len(known) - 1), 0, -1) if known[n].sound), 0)
 
 
-def _holder(key: int, keys: Sequence[range], before: int) -> int:
+def _holder(key: int, keys: Sequence[Sequence[int]], before: int) -> int:
     """Return the piece that has a step."""
     return next(at for at in range(before - 1, -1, -1) if key in keys[at])

@@ -1,13 +1,15 @@
 from __future__ import annotations
 
 import itertools
+from collections.abc import Sequence
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from mlmg_lang.parsing.cutting import Balance, balance, cut
-from mlmg_lang.parsing.parse import parse
+from mlmg_lang.parsing.nesting import Around, Mark, after
+from mlmg_lang.parsing.parse import read_marks
 from mlmg_lang.parsing.tokenize import tokenize
 from mlmg_lang.source import Source
 
@@ -42,7 +44,8 @@ def pieces(text: str) -> list[str]:
         ("A\nB\n", ["A\n", "B\n"]),
         ("# c\nA\n\n# d\nB", ["# c\nA\n", "\n# d\nB"]),
         ("A\n with B\nC", ["A\n with B\n", "C"]),
-        ("repeat 2 {\nA\n}\nB", ["repeat 2 {\nA\n}\n", "B"]),
+        ("repeat 2 {\nA\n}\nB", ["repeat 2 {\n", "A\n", "}\n", "B"]),
+        ("repeat 2 { A; B }\nC", ["repeat 2 { A; B }\n", "C"]),
         ("(A\nand B)\nC", ["(A\nand B)\n", "C"]),
         ("(A\nB\nC", ["(A\n", "B\n", "C"]),
         ("(A\nwait 1 sec\nB)", ["(A\n", "wait 1 sec\n", "B)"]),
@@ -54,12 +57,20 @@ def test_a_piece_is_a_statement_with_the_lines_before_it(text: str, expected: li
 
 
 @given(st.lists(st.sampled_from(BITS), max_size=30).map(" ".join))
-def test_pieces_say_alone_what_they_say_together(text: str) -> None:
-    def said(part: str) -> list[tuple[type, str]]:
-        items = parse(Source(part), tokenize(Source(part))).script.items
-        return [(type(item), part[item.span.start : item.span.end]) for item in items]
+def test_pieces_say_alone_in_the_braces_around_them_what_they_say_together(text: str) -> None:
+    def read(part: str, around: Around) -> Sequence[Mark]:
+        return read_marks(Source(part), tokenize(Source(part)), around).marks
 
-    assert [one for part in pieces(text) for one in said(part)] == said(text)
+    def shown(marks: Sequence[Mark], part: str) -> list[tuple[type, str]]:
+        return [(type(mark), part[mark.span.start : mark.span.end]) for mark in marks]
+
+    around: Around = ()
+    alone = []
+    for part in pieces(text):
+        marks = read(part, around)
+        alone += shown(marks, part)
+        around = after(around, marks)
+    assert alone == shown(read(text, ()), text)
 
 
 @pytest.mark.parametrize(
