@@ -73,7 +73,7 @@ def _parts(motion: syntax.Motion) -> Iterator[syntax.Motion]:
 
 def _fresh(analysis: Analysis) -> str:
     """Return a name that means nothing yet, however it is spelt, in the script or in the library."""
-    tokens = (token for piece in analysis.made.pieces for token in piece.tokens)
+    tokens = (token for line in analysis.made.lines for token in line.tokens)
     taken = {folded(token.text.strip('"')) for token in tokens if token.type in ("NAME", "STRING", "UNIT")}
     taken |= {folded(name) for name in analysis.made.gathered.definitions.lets}
     names = analysis.question.names

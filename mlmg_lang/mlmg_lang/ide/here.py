@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
-from bisect import bisect_right
+from bisect import bisect_left, bisect_right
+from collections.abc import Iterator, Sequence
+from itertools import chain, compress
+from operator import attrgetter
 from typing import Final
 
-from mlmg_lang.analysis import Analysis
+from mlmg_lang.analysis import Analysis, InPieces
 from mlmg_lang.ide.cursor import cursor_at
 from mlmg_lang.parsing.tokens import Token
+from mlmg_lang.pieces import Piece, all_of
 from mlmg_lang.planning import flow
 from mlmg_lang.planning.names import Names
 from mlmg_lang.source import Source, Span
@@ -16,14 +20,30 @@ _STANDS_FOR_ANY: Final = "wait 1 sec"
 
 
 def tokens_around(analysis: Analysis, offset: int) -> tuple[Token, ...]:
-    """Return the tokens of the lines around an offset, with the statement before and all of a block.
+    """Return the tokens of the lines around an offset, with the statement before, and those with braces of a block.
 
     Those of a whole script are put together when somebody asks for them, which takes longer than all else here.
     """
     made = analysis.made
-    at = max(bisect_right(made.places.starts, offset) - 1, 0)
-    first = next((number for number in range(at - 1, -1, -1) if made.pieces[number].solid), 0)
-    return made.now(tuple(token for piece in made.pieces[first : at + 2] for token in piece.tokens))
+    starts, lines = made.places.line_starts, made.lines
+    at = max(bisect_right(starts, offset) - 1, 0)
+    first = next((number for number in range(at - 1, -1, -1) if lines[number].solid), 0)
+    before, behind = (lines[part] for part in _around(made, offset, first, at + 2))
+    parts = (_braces(before), lines[first : at + 2], _braces(behind))
+    return made.now(tuple(all_of(chain.from_iterable(parts), "tokens")))
+
+
+def _around(made: InPieces, offset: int, first: int, end: int) -> tuple[slice, slice]:
+    """Return the lines of the block at an offset that stand before and behind some."""
+    starts = made.places.starts
+    at = max(bisect_right(starts, offset) - 1, 0)
+    whole = (bisect_left(made.places.line_starts, one) for one in starts[at : at + 2])
+    return slice(min(next(whole), first), first), slice(end, next(whole, end))
+
+
+def _braces(lines: Sequence[Piece]) -> Iterator[Piece]:
+    """Return those of some lines that have braces with partners in others."""
+    return compress(lines, map(attrgetter("marks"), lines))
 
 
 def state_before(analysis: Analysis, offset: int, names: Names) -> flow.State:

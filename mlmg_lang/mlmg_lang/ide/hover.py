@@ -152,9 +152,9 @@ def _tokens_at(analysis: Analysis, offset: int) -> tuple[Sequence[Token], int]:
     if offset > len(source.text):
         file, base = source.file(offset)
         return tokenize(Source(file.text)), base
-    number = min(bisect_right(made.places.starts, offset), len(made.pieces)) - 1
-    piece = made.pieces[number]
-    return piece.tokens, made.places.starts[number] - piece.address
+    number = min(bisect_right(made.places.line_starts, offset), len(made.lines)) - 1
+    line = made.lines[number]
+    return line.tokens, made.places.line_starts[number] - line.address
 
 
 # --- names -----------------------------------------------------------------------------------------------

@@ -79,10 +79,10 @@ def _of_use(analysis: Analysis, use: _Use) -> Iterator[Inlining]:
 def _of_all(analysis: Analysis, let: syntax.Let) -> Iterator[Inlining]:
     made = analysis.made
     definitions = made.gathered.definitions
-    if definitions.find(let.name) is not let or has_errors(made.defined) or any(map(attrgetter("broken"), made.pieces)):
+    if definitions.find(let.name) is not let or has_errors(made.defined) or any(map(attrgetter("broken"), made.lines)):
         return
     edits = []
-    for use in (use for piece in made.pieces for item in piece.items if item is not let for use in _uses(item)):
+    for use in (use for line in made.lines for item in line.items if item is not let for use in _uses(item)):
         if normal(use.node.name.text) == normal(let.name.text):
             text = _put_in(analysis, let, use)
             if text is None:

@@ -22,5 +22,5 @@ def document_links(analysis: Analysis) -> tuple[Link, ...]:
     """Return the paths of a script, in the order of the text; those that lead nowhere are reported elsewhere."""
     made = analysis.made
     named = made.gathered.used.named
-    paths = (item.path for item in all_of(made.pieces, "items") if isinstance(item, syntax.Use))
+    paths = (item.path for item in all_of(made.lines, "items") if isinstance(item, syntax.Use))
     return tuple(Link(made.places(path.span), named[path.span]) for path in paths if path.span in named)

@@ -91,10 +91,10 @@ def _tokens_before(analysis: Analysis, offset: int) -> Sequence[Token]:
     if offset > len(source.text):
         file, base = source.file(offset)
         return tokenize(Source(file.text[: offset - base]))
-    number = max(bisect_left(made.places.starts, offset) - 1, 0)
-    piece = made.pieces[number]
-    address = offset - made.places.starts[number] + piece.address
-    return piece.tokens[: bisect_left(piece.tokens, address, key=lambda token: token.span.start)]
+    number = max(bisect_left(made.places.line_starts, offset) - 1, 0)
+    line = made.lines[number]
+    address = offset - made.places.line_starts[number] + line.address
+    return line.tokens[: bisect_left(line.tokens, address, key=lambda token: token.span.start)]
 
 
 def _open(tokens: Sequence[Token]) -> list[int]:
