@@ -9,8 +9,8 @@ from typing import Final, TypeAlias
 
 from lsprotocol import types
 
+from mlmg_lang.blocks import Statement
 from mlmg_lang.ide import symbols
-from mlmg_lang.pieces import Piece
 from mlmg_lang.source import Source, Span
 from mlmg_lsp.documents import Snapshot
 from mlmg_lsp.positions import Encoding, range_from_span
@@ -42,7 +42,7 @@ class _Row:
 class _Outlined:
     """What of an outline is in a piece; `n_lines`: how many lines end in it."""
 
-    piece: Piece
+    piece: Statement
     rows: tuple[_Row, ...]
     n_lines: int
 
@@ -65,7 +65,7 @@ def _parts(snapshot: Snapshot) -> list[_Outlined]:
     return parts
 
 
-def _outlined(piece: Piece, text: str, encoding: Encoding) -> _Outlined:
+def _outlined(piece: Statement, text: str, encoding: Encoding) -> _Outlined:
     source = Source(text)
     rows = tuple(_row(one, source, encoding) for one in symbols.piece_symbols(piece, text))
     return _Outlined(piece, rows, len(source.line_starts) - 1)

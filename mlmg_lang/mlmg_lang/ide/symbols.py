@@ -8,9 +8,9 @@ from enum import StrEnum
 from typing import Final
 
 from mlmg_lang.analysis import Analysis
+from mlmg_lang.blocks import Statement
 from mlmg_lang.ide.fuzzy import matching
 from mlmg_lang.parsing import syntax
-from mlmg_lang.pieces import Piece
 from mlmg_lang.source import Source, Span
 
 _LONGEST: Final = 60
@@ -64,7 +64,7 @@ def document_symbols(analysis: Analysis) -> tuple[Symbol, ...]:
     return tuple(outline)
 
 
-def piece_symbols(piece: Piece, text: str) -> tuple[Symbol, ...]:
+def piece_symbols(piece: Statement, text: str) -> tuple[Symbol, ...]:
     """Return what of an outline is in a piece, with places counted from its beginning; `text`: of the piece."""
     return tuple(_Outliner(Source(text), -piece.address).items(piece.items))
 
