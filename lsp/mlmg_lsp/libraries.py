@@ -88,4 +88,7 @@ def _opened(path: Path) -> Shelved:
     stamp = stamp_of(path)
     library = open_library(path)
     names = Names(library)
-    return Shelved(library, names, Offers(names, LibraryFits(library), {}, Kept()), stamp)
+    offers = Offers(names, LibraryFits(library), {}, Kept())
+    for graph in names.graphs:
+        offers.on(graph, (library.start,))  # what it works out of a library alone takes longer than a key may
+    return Shelved(library, names, offers, stamp)

@@ -10,7 +10,8 @@ from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum
 from itertools import pairwise
-from typing import Final, Protocol, TypeAlias
+from math import inf
+from typing import Final, NamedTuple, Protocol, TypeAlias
 
 from mlmg_lang.definitions.gather import Definitions
 from mlmg_lang.diagnostics import Diagnostic
@@ -50,8 +51,7 @@ class What(StrEnum):
     UNIT = "unit"
 
 
-@dataclass(frozen=True, slots=True)
-class Completion:
+class Completion(NamedTuple):
     """Something that could be written.
 
     Attributes
@@ -70,6 +70,10 @@ class Completion:
     motions: tuple[str, ...] = ()
     fit: float | None = None
     says: str = ""
+
+
+_Row: TypeAlias = tuple[str, str, What, str, tuple[str, ...]]
+"""What a completion says of a name, but how well it fits."""
 
 
 class Fits(Protocol):
@@ -97,17 +101,36 @@ class Offers:
     fits: Fits
     uses: Mapping[str, int] = field(default_factory=dict)
     _known: dict[tuple[str, frozenset[str]], tuple[Completion, ...]] = field(default_factory=dict)
+    _listed: dict[str, tuple[_Row, ...]] = field(default_factory=dict)
 
     def on(self, graph: str, above: Collection[str]) -> tuple[Completion, ...]:
         """Return the names on a graph whose motions can be had, what fits best first, then what is used most."""
         key = (graph, frozenset(above))
-        if key not in self._known:
-            fits = self.fits.fits(graph, above)
-            offered = (_offered(entry, graph, fits) for entry in self.names.entries(graph))
-            known = [one for one in offered if one is not None]
-            known.sort(key=lambda one: (one.fit or 0.0, -self.uses.get(one.name, 0)))
-            self._known[key] = tuple(known)
-        return self._known[key]
+        found = self._known.get(key)
+        if found is None:
+            if graph not in self._listed:
+                self._listed[graph] = tuple(_row(entry, graph) for entry in self.names.entries(graph))
+            found = self._known[key] = tuple(self._ranked(self._listed[graph], self.fits.fits(graph, above)))
+        return found
+
+    def _ranked(self, rows: Sequence[_Row], fits: Mapping[str, float]) -> Iterator[Completion]:
+        best = [_best(motions, fits) for _, _, _, _, motions in rows]
+        order = [at for at in sorted(range(len(rows)), key=best.__getitem__) if best[at] < inf]
+        if self.uses:
+            order.sort(key=lambda at: (best[at], -self.uses.get(rows[at][1], 0)))
+        return (Completion(*rows[at], best[at]) for at in order)
+
+
+def _row(entry: Entry, graph: str) -> _Row:
+    what = What.MOTION if entry.kind is Kind.MOTION else What.TAG
+    return script_name(entry.name), entry.name, what, graph, entry.motions
+
+
+def _best(motions: Sequence[str], fits: Mapping[str, float]) -> float:
+    """Return how well the best of some motions fits; infinity if none can be had."""
+    if len(motions) == 1:
+        return fits.get(motions[0], inf)
+    return min((fits[motion] for motion in motions if motion in fits), default=inf)
 
 
 @dataclass(frozen=True, slots=True)
@@ -317,15 +340,6 @@ class _Completer:
             motions = [motion for motion in above.motions if motion in names.motion_set(graph)]
             if motions:
                 yield graph, motions
-
-
-def _offered(entry: Entry, graph: str, fits: Mapping[str, float]) -> Completion | None:
-    """Return a name of a library as a completion; None if none of its motions can be had."""
-    known = [fits[motion] for motion in entry.motions if motion in fits]
-    if not known:
-        return None
-    what = What.MOTION if entry.kind is Kind.MOTION else What.TAG
-    return Completion(script_name(entry.name), entry.name, what, graph, entry.motions, min(known))
 
 
 def _graph(graph: str, says: str) -> Completion:

@@ -1,5 +1,6 @@
 """What is offered at a cursor is what is valid there, the best first."""
 
+import random
 from collections.abc import Callable
 from typing import Any
 
@@ -136,6 +137,29 @@ def test_what_has_been_used_more_comes_first_among_equals(reference: Catalog) ->
     offers = Offers(names, Alike(), {"TALK": 3, "Walk_02": 1})
     around = Surroundings(names, definitions, flow.begin(names, "Idle_01"), offers)
     assert [one.text for one in complete((), 0, around)[1]][:2] == ["TALK", "Walk_02"]
+
+
+def test_names_are_ranked_by_the_best_of_their_motions_then_by_use_then_as_the_library_has_them(
+    reference: Catalog,
+) -> None:
+    from mlmg_lang.ide.completion import Offers
+    from mlmg_lang.planning.names import Names
+
+    class Fitting:
+        def fits(self, graph: str, above: object) -> dict[str, float]:
+            return fits
+
+    names, draw = Names(reference), random.Random(1)
+    for _ in range(50):
+        fits = {motion: draw.choice((0.0, 0.5, 2.0)) for motion in names.motions(names.root) if draw.random() < 0.6}
+        uses = {entry.name: draw.randrange(3) for entry in names.entries(names.root)}
+        known = [
+            (min(fits[motion] for motion in entry.motions if motion in fits), -uses[entry.name], at, entry.name)
+            for at, entry in enumerate(names.entries(names.root))
+            if any(motion in fits for motion in entry.motions)
+        ]
+        found = Offers(names, Fitting(), uses).on(names.root, ())
+        assert [(one.fit, one.name) for one in found] == [(fit, name) for fit, _, _, name in sorted(known)]
 
 
 def test_whatever_is_offered_for_a_finished_motion_is_understood(texts: Texts, left_hand: Catalog) -> None:
