@@ -241,8 +241,9 @@ def _unknown(name: syntax.Name, scope: Scope, on: Sequence[str]) -> Diagnostic:
     message = f"no tag or motion `{name.text}` in this library"
     own = (*scope.parameters, *(let.name.text for let in scope.own.values()))
     same = tuple(word for word in own if folded(word) == folded(name.text))
-    near = same or nearest(name.text, (*own, *(word for graph in on for word in names.spellings_on(graph))))
-    near = near or nearest(name.text, names.spellings())
+    # Of own names and the library's together, the nearest are among those of each.
+    near = same or nearest(name.text, (*own, *names.nearest(name.text, on)))
+    near = near or names.nearest(name.text, names.graphs)
     if not near:
         near_graph = nearest(name.text, names.graphs, limit=1)
         advice = f"there is a graph `{near_graph[0]}`" if near_graph else _all_names(names, on)

@@ -7,7 +7,9 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 from mlmg_lang.catalog import Catalog
-from mlmg_lang.spelling import folded, normal
+from mlmg_lang.spelling import folded, nearest, normal
+
+_MOST_KEPT = 4096
 
 
 class Kind(StrEnum):
@@ -59,7 +61,7 @@ class _Graph:
 
 
 class Names:
-    """An index of a library's names. Nothing in it changes after it is made."""
+    """An index of a library's names. Nothing that it tells changes after it is made."""
 
     def __init__(self, catalog: Catalog) -> None:
         """Read all names of a library."""
@@ -70,6 +72,7 @@ class Names:
         self._names = {graph: _index(catalog, graph) for graph in self.graphs}
         self._graphs_exact = {normal(graph): graph for graph in self.graphs}
         self._graphs_inexact = {folded(graph): graph for graph in reversed(self.graphs)}
+        self._near: dict[tuple[str, tuple[str, ...]], tuple[str, ...]] = {}
         self._anywhere = frozenset(name for index in self._names.values() for name in index.exact)
 
     # --- the tree of graphs ---
@@ -155,6 +158,19 @@ class Names:
     def spellings_on(self, graph: str) -> tuple[str, ...]:
         """Return the tags on a graph, then its motions."""
         return self._names[graph].spellings
+
+    def nearest(self, written: str, graphs: Iterable[str]) -> tuple[str, ...]:
+        """Return the names on some graphs that look most like a written one, the most like first.
+
+        What was asked is kept: while somebody types, the same unknown names are compared with all others at each key.
+        """
+        key = (written, tuple(graphs))
+        found = self._near.get(key)
+        if found is None:
+            if len(self._near) >= _MOST_KEPT:
+                self._near.clear()
+            found = self._near[key] = nearest(written, (word for graph in key[1] for word in self.spellings_on(graph)))
+        return found
 
     def tags(self, graphs: Iterable[str]) -> tuple[str, ...]:
         """Return every tag on some graphs, once."""

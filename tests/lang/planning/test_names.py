@@ -1,10 +1,12 @@
 from __future__ import annotations
 
+import random
 from typing import Any
 
 import pytest
 
 from mlmg_lang.planning.names import Kind, Names
+from mlmg_lang.spelling import nearest
 
 
 @pytest.fixture
@@ -65,3 +67,17 @@ def test_the_motions_of_a_tag_stand_in_configuration_order(reference: Any) -> No
     match = Names(reference).find("Full-Body", "IDLE")
     assert match is not None
     assert match.entry.motions == ("Idle_01", "Idle_02", "Music_01", "Talk_01")
+
+
+def test_own_names_and_the_nearest_of_a_library_have_the_nearest_of_all_among_them(catalog: Any) -> None:
+    draw = random.Random(3)
+
+    def words(n: int) -> list[str]:
+        return ["".join(draw.choices("ABa_-", k=draw.randint(1, 5))) for _ in range(n)]
+
+    for _ in range(300):
+        motions = {one: tuple(words(2)) for one in dict.fromkeys(words(6))}
+        names, own, written = Names(catalog({"Body": motions}, {}, start=next(iter(motions)))), words(3), words(1)[0]
+        for _ in range(2):  # the second time it is kept
+            found = nearest(written, (*own, *names.nearest(written, ("Body",))))
+            assert found == nearest(written, (*own, *names.spellings_on("Body")))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 from mlmg_lang.catalog import Catalog
 from mlmg_lang.planning.flow import Setter, State
@@ -25,6 +25,7 @@ class Attempt:
     ruled_out : by graph, the motions that later commands have ruled out, and why.
     left : by graph, the candidates that are still in question.
     out : by graph, the others.
+    known : what has been found out of it: `sources`, by graph.
     """
 
     names: Names
@@ -35,6 +36,7 @@ class Attempt:
     ruled_out: Mapping[str, Mapping[str, str]]
     left: Mapping[str, tuple[str, ...]]
     out: Mapping[str, tuple[LeftOut, ...]]
+    known: dict[str, frozenset[str]] = field(default_factory=dict, compare=False, repr=False)
 
     def without(self, outs: Iterable[Out], reason: str) -> Attempt:
         """Return the command when some candidates are out."""
@@ -42,7 +44,7 @@ class Attempt:
         for one in outs:
             left[one.graph] = tuple(motion for motion in left[one.graph] if motion != one.motion)
             out[one.graph] = (*out[one.graph], LeftOut(one.motion, reason, one.because))
-        return replace(self, left=left, out=out)
+        return replace(self, left=left, out=out, known={})
 
     # --- the graphs ---
 
@@ -118,6 +120,11 @@ class Attempt:
 
     def sources(self, graph: str) -> frozenset[str]:
         """Return the motions that a layer may set out from, as far as it can."""
+        if graph not in self.known:  # several rules ask, and where anything may be playing that takes long
+            self.known[graph] = self._sources(graph)
+        return self.known[graph]
+
+    def _sources(self, graph: str) -> frozenset[str]:
         above, own = self.named_above(graph), self.state.parts.get(graph)
         if above is None:
             playing = self.driving(graph) if own is None else own.motions
