@@ -1,5 +1,5 @@
 # make demo    install, and play examples/tour.ms on the demo library into tour.bvh
-# make test    all tests
+# make test    all tests;  make edits: the language server after 10,000 random edits
 # make lint    style and who may import whom;  make types: mypy;  make bench: measurements beside peers
 # make pictures  the pictures of the README;  make recording: the session in it;  make grammars: what editors and the docs have of the grammar
 # make vsix    the extension for VS Code
@@ -8,7 +8,7 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 
-.PHONY: demo test lint types bench pictures recording grammars vsix wheel clean
+.PHONY: demo test edits lint types bench pictures recording grammars vsix wheel clean
 
 demo: $(VENV)/installed
 	$(BIN)/mlmgc examples/tour.ms -o tour.bvh --report tour.json
@@ -16,6 +16,10 @@ demo: $(VENV)/installed
 
 test: $(VENV)/test-tools
 	$(BIN)/pytest -n auto
+
+# After each edit, what the language server says is compared with what a fresh one says; a quarter of an hour of a core.
+edits: $(VENV)/test-tools
+	$(BIN)/pytest -n auto tests/lsp/test_random_edits.py --edits 10000
 
 lint: $(VENV)/lint-tools
 	$(BIN)/ruff check .

@@ -25,6 +25,7 @@ class Client:
     pulls : whether it asks for diagnostics, and can be told to ask again; else it is told of them.
     related, tags : whether diagnostics may have other places, and tags.
     snippets : whether completions may have places to fill in.
+    markdown_of_completions, markdown_of_hovers : whether what there is to read may be Markdown.
     versioned : whether edits may name the version that they are for.
     resolves_edits : whether it asks for the edit of a code action when that is chosen.
     progress, configuration, watches : whether it can be asked for these.
@@ -37,6 +38,8 @@ class Client:
     related: bool = False
     tags: bool = False
     snippets: bool = False
+    markdown_of_completions: bool = False
+    markdown_of_hovers: bool = False
     versioned: bool = False
     resolves_edits: bool = False
     progress: bool = False
@@ -55,6 +58,9 @@ def client_from(capabilities: types.ClientCapabilities) -> Client:
             value = getattr(value, name, None)
         return value
 
+    def texts(path: str) -> list[Any]:
+        return list(map(_plain, has(path) or ()))
+
     resolved = has("text_document.code_action.resolve_support.properties") or ()
     return Client(
         encoding=encoding_from(has("general.position_encodings") or ()),
@@ -63,6 +69,8 @@ def client_from(capabilities: types.ClientCapabilities) -> Client:
         related=bool(has("text_document.publish_diagnostics.related_information")),
         tags=bool(has("text_document.publish_diagnostics.tag_support")),
         snippets=bool(has("text_document.completion.completion_item.snippet_support")),
+        markdown_of_completions="markdown" in texts("text_document.completion.completion_item.documentation_format"),
+        markdown_of_hovers="markdown" in texts("text_document.hover.content_format"),
         versioned=bool(has("workspace.workspace_edit.document_changes")),
         resolves_edits="edit" in resolved,
         progress=bool(has("window.work_done_progress")),

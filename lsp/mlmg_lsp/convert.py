@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from difflib import SequenceMatcher
 from functools import cache
@@ -24,6 +25,8 @@ _SEVERITIES: Final = {
     # Editors hardly show what they call a hint, and ours are worth reading.
     Severity.HINT: types.DiagnosticSeverity.Information,
 }
+_SIGNS: Final = re.compile(r"\*\*|^```[\w-]*\n|\n```$", re.MULTILINE)
+"""Of bold words and stretches of code, as we write them."""
 _UNUSED: Final = "MS054"
 _MOST_COMPARED: Final = 5_000
 """Of so many lines it is worked out which of them an edit leaves alone; of more, only where it begins and ends."""
@@ -74,6 +77,13 @@ def source_of(snapshot: Snapshot, file: str) -> Source:
     sources = (source for one in known for source in (one.source, *one.source.used))
     found = next((source for source in sources if source.name == file), None)
     return Source(Path(file).read_bytes().decode("utf-8-sig", "replace"), file) if found is None else found
+
+
+def markup(text: str, as_it_is: bool) -> types.MarkupContent:
+    """Return a text in Markdown; without its signs for a client that would show them."""
+    if as_it_is:
+        return types.MarkupContent(types.MarkupKind.Markdown, text)
+    return types.MarkupContent(types.MarkupKind.PlainText, _SIGNS.sub("", text))
 
 
 # --- diagnostics ---

@@ -9,8 +9,8 @@ from itertools import accumulate, chain, compress
 from operator import attrgetter, is_not
 
 from mlmg_lang.analysis import InPieces
+from mlmg_lang.definitions.expand import names_in
 from mlmg_lang.definitions.gather import Definitions
-from mlmg_lang.definitions.parameters import references
 from mlmg_lang.parsing.cutting import Balance, balance, cut
 from mlmg_lang.parsing.nesting import Around, after
 from mlmg_lang.parsing.tokenize import tokenize
@@ -18,7 +18,6 @@ from mlmg_lang.parsing.tokens import Token
 from mlmg_lang.pieces import Piece, read_in
 from mlmg_lang.planning.resolve_again import NOT_PLAYED, Played
 from mlmg_lang.source import Source
-from mlmg_lang.spelling import normal
 
 
 @dataclass(frozen=True, slots=True)
@@ -154,8 +153,8 @@ def changed_names(before: Definitions, after: Definitions) -> frozenset[str]:
     changed = {name for name in names if _meaning(before, name) != _meaning(after, name)}
     users: dict[str, set[str]] = {}
     for name, let in after.lets.items():
-        for used in references(let):
-            users.setdefault(normal(used.text), set()).add(name)
+        for used in names_in(let):
+            users.setdefault(used, set()).add(name)
     pending = list(changed)
     while pending:
         fresh = users.get(pending.pop(), set()) - changed
@@ -220,7 +219,7 @@ def touched(before: InPieces, change: Change) -> list[int]:
     others = (at for at in range(len(lines)) if at not in new)
     names = change.names
     return sorted(
-        (*new, *(at for at in others if (lines[at].said and not same) or not names.isdisjoint(lines[at].used)))
+        (*new, *(at for at in others if (lines[at].said and not same) or not names.isdisjoint(lines[at].names)))
     )
 
 

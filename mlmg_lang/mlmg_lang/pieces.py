@@ -15,7 +15,7 @@ from itertools import chain, pairwise
 from operator import attrgetter
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from mlmg_lang.definitions.expand import any_broken, used_names
+from mlmg_lang.definitions.expand import any_broken, names_in, used_names
 from mlmg_lang.diagnostics import Diagnostic
 from mlmg_lang.moving import by, moved
 from mlmg_lang.parsing import syntax
@@ -107,6 +107,12 @@ class Piece:
     def used(self) -> frozenset[str]:
         """Return the names that its statements use; see `used_names`."""
         return used_names(self.items) | (_STATEMENT if self.marks else frozenset())
+
+    @cached_property
+    def names(self) -> frozenset[str]:
+        """Return all names in its statements, in NFC; those of graphs too, which may be definitions' by mistake."""
+        items = (item for item in self.items if not isinstance(item, syntax.Let | syntax.Use))
+        return frozenset(name for item in items for name in names_in(item))
 
     @cached_property
     def broken(self) -> bool:

@@ -260,3 +260,11 @@ def test_a_definition_that_has_no_sound_name_is_no_statement_however_its_script_
     plan = check(before, "let A😀 = WALK\nlet B = |IDLE\nTALK\n", library).plan
     assert plan is not None
     assert [statement.span.start for statement in plan.statements] == [14, 28]
+
+
+def test_a_name_that_stands_for_a_graph_by_mistake_is_told_of_as_soon_as_it_is_defined(
+    libraries: Mapping[str, Any],
+) -> None:
+    library = libraries["reference"]
+    before = analyse(Source('let WALKS = IDLE\nWALK " for 2 sec\n'), library)
+    check(before, 'let WALK = IDLE\nWALK " for 2 sec\n', library)

@@ -84,6 +84,10 @@ class Client:
         """Return the parameters of the next message of a method."""
         return self.wait(lambda one: one.get("method") == method)["params"]
 
+    def forget(self) -> None:
+        """Let go of the messages that nothing has waited for so far."""
+        self._passed_over.clear()
+
     def rest(self) -> list[Any]:
         """Return all messages that nothing has waited for, up to the end of the server."""
         found = list(self._passed_over)

@@ -12,7 +12,7 @@ from mlmg_lang.ide.fuzzy import matching
 from mlmg_lang.ide.here import state_before, tokens_around
 from mlmg_lang.planning import flow
 from mlmg_lang.planning.names import Names
-from mlmg_lsp.convert import offset_of, range_of
+from mlmg_lsp.convert import markup, offset_of, range_of
 from mlmg_lsp.documents import Snapshot
 from mlmg_lsp.nothing import NoFits, Nothing
 
@@ -58,7 +58,9 @@ def resolve(snapshot: Snapshot, item: types.CompletionItem) -> types.CompletionI
     data = item.data if isinstance(item.data, Mapping) else {}
     lines = [] if snapshot.shelved is None else list(_documentation(snapshot.shelved.library, data))
     if lines:
-        item.documentation = types.MarkupContent(types.MarkupKind.Markdown, "\n\n".join(lines))
+        read = markup("\n\n".join(lines), snapshot.client.markdown_of_completions)
+        # Who has not said that it knows kinds of texts may know of none.
+        item.documentation = read if read.kind is types.MarkupKind.Markdown else read.value
     return item
 
 

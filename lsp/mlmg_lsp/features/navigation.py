@@ -14,6 +14,7 @@ from mlmg_lsp.convert import (
     edit_in,
     index_after,
     location_of_place,
+    markup,
     offset_of,
     range_of,
     workspace_edits,
@@ -28,7 +29,7 @@ def hover(snapshot: Snapshot, params: types.HoverParams) -> types.Hover | None:
     if found is None:
         return None
     text = "\n\n".join(f"```motion-script\n{part.text}\n```" if part.code else part.text for part in found.parts)
-    return types.Hover(types.MarkupContent(types.MarkupKind.Markdown, text), _range(snapshot, found.span))
+    return types.Hover(markup(text, snapshot.client.markdown_of_hovers), _range(snapshot, found.span))
 
 
 def _facts(snapshot: Snapshot) -> LibraryFacts | None:

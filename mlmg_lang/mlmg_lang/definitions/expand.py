@@ -67,6 +67,11 @@ def any_broken(items: Iterable[syntax.Item]) -> bool:
     return any(isinstance(node, syntax.Broken) for item in items for node in syntax.walk(item))
 
 
+def names_in(item: syntax.Item) -> frozenset[str]:
+    """Return all names in an item, in NFC, whatever they are those of."""
+    return frozenset(normal(node.text) for node in syntax.walk(item) if isinstance(node, syntax.Name))
+
+
 def used_names(items: Iterable[syntax.Item]) -> frozenset[str]:
     """Return the names, in NFC, that statements use, be they those of definitions or not; no names without statements.
 

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 
-from mlmg_lang.analysis import Analysis
+from mlmg_lang.analysis import Analysis, InPieces
 from mlmg_lang.parsing.layout import Block, Line, lay_out
 from mlmg_lang.parsing.tokens import ENDS_PARENTHESES, Token
 from mlmg_lang.source import Span
@@ -37,21 +37,20 @@ def folds(analysis: Analysis) -> tuple[Fold, ...]:
     """
     made = analysis.made
     found: dict[tuple[int, int], Fold] = {}
-    for piece, start in zip(made.pieces, made.places.starts, strict=False):
-        if sum(token.type == "NEWLINE" for token in piece.tokens) < 2 and start + piece.size < len(made.source.text):
-            continue  # Every piece but the last ends with the end of its line.
-        for fold in sorted(_folds(piece.tokens), key=lambda fold: (fold.span.start, -fold.span.end)):
-            span = Span(*(offset + start - piece.address for offset in (fold.span.start, fold.span.end)))
-            first, _, last, _ = made.source.location(span)
-            if first < last:
-                found.setdefault((first, last), Fold(span, fold.kind))
+    for fold in sorted((*_comments(made), *_in_pieces(made)), key=lambda fold: (fold.span.start, -fold.span.end)):
+        first, _, last, _ = made.source.location(fold.span)
+        if first < last:
+            found.setdefault((first, last), fold)
     return tuple(found.values())
 
 
-def _folds(tokens: Sequence[Token]) -> Iterator[Fold]:
-    yield from _comments(tokens)
-    yield from _parentheses(tokens)
-    yield from _laid_out(lay_out(tokens).items)
+def _in_pieces(made: InPieces) -> Iterator[Fold]:
+    """Yield what is never in several pieces."""
+    for piece, start in zip(made.pieces, made.places.starts, strict=False):
+        if sum(token.type == "NEWLINE" for token in piece.tokens) < 2 and start + piece.size < len(made.source.text):
+            continue  # Every piece but the last ends with the end of its line.
+        for fold in (*_parentheses(piece.tokens), *_laid_out(lay_out(piece.tokens).items)):
+            yield Fold(_moved(fold.span, start - piece.address), fold.kind)
 
 
 def _laid_out(items: Sequence[Line | Block]) -> Iterator[Fold]:
@@ -84,25 +83,34 @@ def _parentheses(tokens: Sequence[Token]) -> Iterator[Fold]:
             yield Fold(Span(opened.pop(), token.span.end), Kind.PARENTHESES)
 
 
-def _comments(tokens: Sequence[Token]) -> Iterator[Fold]:
-    """Yield runs of lines with nothing but a comment."""
-    run: list[Token] = []
-    alone = True
-    n_ends = 0
-    for token in tokens:
+def _comments(made: InPieces) -> Iterator[Fold]:
+    """Yield runs of lines with nothing but a comment, whichever pieces they are in."""
+    run: list[Span] = []
+    alone, n_ends = True, 0
+    for token, moved in _placed(made):
         if token.type == "NEWLINE":
-            n_ends += 1
-            alone = True
+            n_ends, alone = n_ends + 1, True
             continue
         if token.type != "COMMENT" or not alone or n_ends > 1:
             yield from _run(run)
             run = []
         if token.type == "COMMENT" and alone:
-            run.append(token)
+            run.append(_moved(token.span, moved))
         alone, n_ends = False, 0
     yield from _run(run)
 
 
-def _run(comments: Sequence[Token]) -> Iterator[Fold]:
+def _placed(made: InPieces) -> Iterator[tuple[Token, int]]:
+    """Yield all tokens, each with how far its place is from where it is now."""
+    for piece, start in zip(made.pieces, made.places.starts, strict=False):
+        for token in piece.tokens:
+            yield token, start - piece.address
+
+
+def _moved(span: Span, by: int) -> Span:
+    return Span(span.start + by, span.end + by)
+
+
+def _run(comments: Sequence[Span]) -> Iterator[Fold]:
     if len(comments) > 1:
-        yield Fold(Span(comments[0].span.start, comments[-1].span.end), Kind.COMMENT)
+        yield Fold(Span(comments[0].start, comments[-1].end), Kind.COMMENT)

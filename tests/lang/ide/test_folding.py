@@ -6,7 +6,7 @@ from hypothesis import strategies as st
 
 from mlmg_lang.front_end import analyse, analyse_again
 from mlmg_lang.ide.folding import folds
-from mlmg_lang.source import Source
+from mlmg_lang.source import Source, Span
 
 TEXTS = st.text(alphabet='repeat 2choose{}|()#WALKwith\n;"\r', max_size=80)
 
@@ -53,3 +53,9 @@ def test_of_any_text_each_fold_is_on_several_lines_and_none_is_given_twice(text:
 def test_after_an_edit_folds_are_those_of_the_text_afresh(before: str, new: str, after: str) -> None:
     edited = analyse_again(analyse(Source(f"{before}\n{after}")), Source(f"{before}\n{new}\n{after}"))
     assert folds(edited) == folds(analyse(edited.source))
+
+
+def test_comments_that_come_to_stand_together_fold_together() -> None:
+    before = analyse(Source("IDLE\nWALK\n# a\nIDLE\n"))
+    together = analyse_again(before, Source("IDLE\n# WALK\n# a\nIDLE\n"))
+    assert [fold.span for fold in folds(together)] == [Span(5, 15)]
