@@ -7,6 +7,7 @@ import os
 import sys
 from collections.abc import Callable
 from contextlib import suppress
+from dataclasses import replace
 from functools import partial
 from importlib.metadata import version
 from pathlib import Path
@@ -20,7 +21,8 @@ from mlmg_lang.libraries import SETTINGS
 from mlmg_lsp.client import client_from
 from mlmg_lsp.documents import Document, Documents, Snapshot, Superseded, path_of
 from mlmg_lsp.executing import Executor
-from mlmg_lsp.features import COMMANDS, FEATURES, RESOLVING, answer_named, warm
+from mlmg_lsp.features import COMMANDS, FEATURES, INLAY_HINT, RESOLVING, answer_named, warm
+from mlmg_lsp.foresight import Foresight
 from mlmg_lsp.libraries import Shelf
 from mlmg_lsp.progress import Bar
 from mlmg_lsp.protocol import Protocol
@@ -60,6 +62,7 @@ class MotionScriptServer(LanguageServer):
         self.orderly = False
         self.folders = Workspace(settings, shelf)
         self.documents = Documents(self._files_of, self._publish, warm)
+        self.foresight = Foresight(lambda: self._refresh("inlay_hint"), self._foresight_failed)
         self.executor = Executor(self, self.documents, self.snapshot)
         self._said: set[str] = set()
         self._tasks: set[asyncio.Future[Any]] = set()
@@ -80,6 +83,7 @@ class MotionScriptServer(LanguageServer):
     def leave(self) -> None:
         """Let go of all."""
         self.documents.close_all()
+        self.foresight.end()
         self.executor.end()
         for task in list(self._tasks):
             task.cancel()
@@ -146,6 +150,7 @@ class MotionScriptServer(LanguageServer):
 
     def changed(self, params: types.DidChangeTextDocumentParams) -> None:
         """Edit a text, and look again at those that use it."""
+        self.foresight.stop(params.text_document.uri)
         document = self.documents.change(params)
         if document is not None and document.path is not None:
             self._used_changed(document.path)
@@ -160,6 +165,7 @@ class MotionScriptServer(LanguageServer):
         """Let go of a text, with what was said of it."""
         uri = params.text_document.uri
         self.documents.close(uri)
+        self.foresight.forget(uri)
         if not self.documents.client.pulls:
             self.text_document_publish_diagnostics(types.PublishDiagnosticsParams(uri, []))
         path = path_of(uri)
@@ -187,7 +193,10 @@ class MotionScriptServer(LanguageServer):
         """Take the settings of the client."""
         before = self.folders.settings
         self.folders.set_client(settings)
-        if self.folders.settings != before:
+        now = self.folders.settings
+        if now.hints != before.hints:
+            self._refresh("inlay_hint")
+        if replace(now, hints=before.hints) != before:
             self._look_again()
             for document in self.documents.all():
                 self.documents.reconsider(document)
@@ -267,6 +276,10 @@ class MotionScriptServer(LanguageServer):
             types.PublishDiagnosticsParams(document.uri, found, version=snapshot.version)
         )
 
+    def _foresight_failed(self, error: Exception) -> None:
+        message = f"What commands will play cannot be foreseen: {error!r}"
+        self.window_log_message(types.LogMessageParams(types.MessageType.Warning, message))
+
     def _refresh(self, *names: str) -> None:
         """Let a client ask again for what it has asked for before, of all texts: for these, or all that there is."""
         asking = {
@@ -341,6 +354,7 @@ def build_server(settings: Settings, shelf: Shelf) -> MotionScriptServer:
         server.feature(method, options)(_of_text(server, name))
     for method, name in RESOLVING:
         server.feature(method)(_of_item(server, name))
+    server.feature(types.TEXT_DOCUMENT_INLAY_HINT)(_of_hints(server))
     return server
 
 
@@ -350,6 +364,18 @@ def _of_text(server: MotionScriptServer, name: str) -> Callable[[Any], Any]:
     async def handler(params: Any) -> Any:
         snapshot = await server.snapshot(params.text_document.uri)
         return await off_loop(lambda: answer_named(name)(snapshot, params))
+
+    return handler
+
+
+def _of_hints(server: MotionScriptServer) -> Callable[[Any], Any]:
+    """Return what answers for hints: with what is foreseen of the text, if that is wanted."""
+
+    async def handler(params: types.InlayHintParams) -> Any:
+        snapshot = await server.snapshot(params.text_document.uri)
+        kinds = server.folders.settings.hints
+        outlook = await server.foresight.of(snapshot) if kinds & {"motions", "arrivals"} else None
+        return await off_loop(lambda: answer_named(INLAY_HINT)(snapshot, params, outlook, kinds))
 
     return handler
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Final
 
 from mlmg_lang.libraries import DEMO, Progress, find_library
 from mlmg_lsp.documents import Document, Documents, OpenFiles, path_of
@@ -18,6 +18,9 @@ if TYPE_CHECKING:
 
     from mlmg_lang.definitions.gather import Files
 
+HINTS: Final = frozenset({"motions", "arrivals", "units", "parameters"})
+"""The kinds of hints, by the names of their settings, which `ide.hints.Kind` has too."""
+
 
 @dataclass(frozen=True, slots=True)
 class Settings:
@@ -28,11 +31,13 @@ class Settings:
     library : the path of a library, from the folder that a script is in the workspace by; or `demo`.
     allowed : folders outside, from which scripts may use files.
     encoding : what a client counts characters in that does not say so; only the command can set it.
+    hints : the kinds of hints that are wanted.
     """
 
     library: str | None = None
     allowed: tuple[str, ...] = ()
     encoding: Encoding = "utf-16"
+    hints: frozenset[str] = HINTS
 
     def with_those_of(self, client: Any) -> Settings:
         """Return settings with those of a client, if it has sent any; what is not as it should be is passed over."""
@@ -41,11 +46,19 @@ class Settings:
             return self
         library, allowed = own.get("library"), own.get("allowUse")
         folders = tuple(map(str, allowed)) if isinstance(allowed, list) else ()
-        return Settings(library if isinstance(library, str) and library else None, folders)
+        named = library if isinstance(library, str) and library else None
+        return Settings(named, folders, hints=_hints(own))
 
     def over(self, others: Settings) -> Settings:
         """Return settings in which these come before others."""
-        return Settings(self.library or others.library, (*self.allowed, *others.allowed), self.encoding)
+        hints = self.hints & others.hints
+        return Settings(self.library or others.library, (*self.allowed, *others.allowed), self.encoding, hints)
+
+
+def _hints(own: Mapping[str, Any]) -> frozenset[str]:
+    """Return the kinds of hints that a client has not switched off."""
+    switches = own.get("inlayHints")
+    return frozenset(kind for kind in HINTS if not isinstance(switches, Mapping) or switches.get(kind) is not False)
 
 
 class Workspace:

@@ -82,7 +82,7 @@ class Client:
 
     def wait_for(self, method: str) -> Any:
         """Return the parameters of the next message of a method."""
-        return self.wait(lambda one: one.get("method") == method)["params"]
+        return self.wait(lambda one: one.get("method") == method).get("params")
 
     def forget(self) -> None:
         """Let go of the messages that nothing has waited for so far."""

@@ -7,16 +7,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from importlib import import_module
-from typing import TYPE_CHECKING, Any, Final, TypeAlias
+from typing import Any, Final, TypeAlias
 
 from lsprotocol import types
 
 from mlmg_lsp.memory import settle
 
-if TYPE_CHECKING:
-    from mlmg_lsp.documents import Snapshot
-
-Answer: TypeAlias = "Callable[[Snapshot, Any], Any]"
+Answer: TypeAlias = Callable[..., Any]
+"""Takes a `Snapshot` and the parameters of a request, and what else it waits for."""
 
 TOKEN_TYPES: Final = (
     *("motion", "tag", "name", "graph", "definition", "parameter", "keyword", "number", "unit", "string", "comment"),
@@ -76,7 +74,6 @@ FEATURES: Final[tuple[tuple[str, Any, str], ...]] = (
     (types.TEXT_DOCUMENT_DOCUMENT_SYMBOL, None, "outline.document_symbol"),
     (types.TEXT_DOCUMENT_FOLDING_RANGE, None, "structure.folding_range"),
     (types.TEXT_DOCUMENT_SELECTION_RANGE, None, "structure.selection_range"),
-    (types.TEXT_DOCUMENT_INLAY_HINT, None, "structure.inlay_hint"),
     (types.TEXT_DOCUMENT_SEMANTIC_TOKENS_FULL, LEGEND, "semantic_tokens.full"),
     (types.TEXT_DOCUMENT_SEMANTIC_TOKENS_FULL_DELTA, LEGEND, "semantic_tokens.delta"),
     (types.TEXT_DOCUMENT_SEMANTIC_TOKENS_RANGE, LEGEND, "semantic_tokens.within"),
@@ -90,6 +87,9 @@ COMMANDS: Final[Mapping[str, str]] = {
     "mlmg.rule": "execute_command.rule",
 }
 """By command of workspace/executeCommand, what does it; imported when it is first asked for."""
+
+INLAY_HINT: Final = "inlay_hint.inlay_hint"
+"""What answers for hints, which waits for more than a text."""
 
 RESOLVING: Final[tuple[tuple[str, str], ...]] = (
     (types.COMPLETION_ITEM_RESOLVE, "completion.resolve"),
@@ -114,7 +114,7 @@ def warm() -> None:
     from mlmg_lang.source import Source
     from mlmg_lsp.nothing import Nothing
 
-    for name in (*(name for _, _, name in FEATURES), *(name for _, name in RESOLVING)):
+    for name in (*(name for _, _, name in FEATURES), *(name for _, name in RESOLVING), INLAY_HINT):
         answer_named(name)
     before = analyse(Source("let a = B for 1 sec\nrepeat 2 {\nA with\n}\n"), Nothing())
     _ = before.ready

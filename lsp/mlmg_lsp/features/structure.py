@@ -1,4 +1,4 @@
-"""What of a text can be folded and selected, and small hints in it."""
+"""What of a text can be folded and selected."""
 
 from __future__ import annotations
 
@@ -6,9 +6,9 @@ from collections.abc import Iterable
 
 from lsprotocol import types
 
-from mlmg_lang.ide import folding, hints, selection
+from mlmg_lang.ide import folding, selection
 from mlmg_lang.source import Span
-from mlmg_lsp.convert import offset_of, range_of, span_of
+from mlmg_lsp.convert import offset_of, range_of
 from mlmg_lsp.documents import Snapshot
 from mlmg_lsp.positions import position_from_offset
 
@@ -40,19 +40,3 @@ def _nested(snapshot: Snapshot, spans: Iterable[Span]) -> types.SelectionRange:
         outer = types.SelectionRange(range_of(snapshot.analysis.source, span, snapshot.client.encoding), outer)
     assert outer is not None, "there is always the whole file"
     return outer
-
-
-def inlay_hint(snapshot: Snapshot, params: types.InlayHintParams) -> list[types.InlayHint]:
-    """Return the units and the names of parameters that are not written, in a stretch of a text."""
-    source, encoding = snapshot.analysis.source, snapshot.client.encoding
-    return [
-        types.InlayHint(
-            types.Position(*position_from_offset(source, one.offset, encoding)),
-            one.label,
-            kind=types.InlayHintKind.Parameter if one.kind is hints.Kind.PARAMETER else types.InlayHintKind.Type,
-            tooltip=one.explanation or None,
-            padding_left=not one.before,
-            padding_right=one.before,
-        )
-        for one in hints.hints(snapshot.analysis, span_of(source, params.range, encoding))
-    ]

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from bisect import bisect_right
 from collections import defaultdict
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
+from mlmg_lang.analysis import Analysis
 from mlmg_lang.ide.hints import Going
 from mlmg_lang.planning.course import driver
 from mlmg_lang.planning.estimate import NO_TIME, Estimate, mixed
@@ -29,6 +31,23 @@ class Foreseen:
 def foreseen(plan: ResolvedPlan, expected: Forecast, names: Names) -> Foreseen:
     """Return how the commands of a plan will probably go, in place of playing it."""
     return Foreseen(dict(_Clock(expected, names).goings(plan.statements, 0.0)))
+
+
+def still_foreseen(told: Foreseen, before: Analysis, now: Analysis) -> Foreseen:
+    """Return what was foreseen of a text before an edit, for the commands that the edit has left alone.
+
+    Where they come to stand is right, how they go may be otherwise by now: it is to be shown until that is known.
+    """
+    starts, pieces = before.made.places.starts, before.made.pieces
+    now_at = {id(piece): start for piece, start in zip(now.made.pieces, now.made.places.starts, strict=False)}
+    left: dict[Span, Going] = {}
+    for command, going in told.goings.items():
+        at = max(bisect_right(starts, command.start, hi=len(pieces)) - 1, 0)
+        start = now_at.get(id(pieces[at]))
+        if start is not None:
+            further = start - starts[at]
+            left[Span(command.start + further, command.end + further)] = going
+    return Foreseen(left)
 
 
 @dataclass(frozen=True, slots=True)

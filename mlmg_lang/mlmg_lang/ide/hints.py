@@ -19,11 +19,13 @@ class Kind(StrEnum):
     """What a hint tells; each can be asked for by itself."""
 
     MOTIONS = "motions"
-    UNIT = "unit"
-    PARAMETER = "parameter"
+    ARRIVALS = "arrivals"
+    UNITS = "units"
+    PARAMETERS = "parameters"
 
 
 ALL = frozenset(Kind)
+_OF_COMMANDS = frozenset({Kind.MOTIONS, Kind.ARRIVALS})
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,7 +81,8 @@ def hints(
     touching = pieces_touching(analysis, within)
     found = (hint for piece, further in touching for item in piece.items for hint in hinter.of(item, further))
     inside = (hint for hint in found if hint.kind in kinds and within.start <= hint.offset <= within.end)
-    return tuple(sorted(inside, key=lambda hint: (hint.offset, not hint.before)))
+    # What a command takes stands behind what its last word means.
+    return tuple(sorted(inside, key=lambda hint: (hint.offset, not hint.before, hint.kind in _OF_COMMANDS)))
 
 
 @dataclass(frozen=True, slots=True)
@@ -103,13 +106,16 @@ class _Hinter:
         going = None if self.outlook is None else self.outlook.going(command)
         if going is None or not going.motions:
             return
-        motions = " with ".join(motion for _, motion in going.motions)
-        when = "" if going.arrives_s is None else f" at {spelled(round(going.arrives_s, 1)) or '0'} sec"
         lines = [f"{motion} on {graph}" for graph, motion in going.motions]
-        likely = "" if going.sure else "probably "
-        label = f"{'' if going.sure else '~ '}{motions}{when}"
-        arrives = "" if going.arrives_s is None else f"; all parts have arrived{when} from the beginning"
-        yield Hint(command.end, label, Kind.MOTIONS, False, f"{likely}{', '.join(lines)}{arrives}")
+        unsure, likely = ("", "") if going.sure else ("~ ", "probably ")
+        written = self.analysis.source.slice(command)
+        if not going.sure or not all(motion in written for _, motion in going.motions):
+            label = unsure + " with ".join(motion for _, motion in going.motions)
+            yield Hint(command.end, label, Kind.MOTIONS, False, f"{likely}{', '.join(lines)}")
+        if going.arrives_s is not None:
+            when = f"at {spelled(round(going.arrives_s, 1)) or '0'} sec"
+            says = f"{likely}all parts have arrived {when} from the beginning"
+            yield Hint(command.end, unsure + when, Kind.ARRIVALS, False, says)
 
     def _lasting(self, quantity: syntax.Quantity, end: int) -> Iterator[Hint]:
         """Yield what a quantity is in seconds, if it is not written so."""
@@ -119,11 +125,11 @@ class _Hinter:
         rate = None if catalog is None else catalog.frame_rate
         seconds, unit = seconds_from_quantity(quantity, rate), unit_of(quantity)
         if unit == "cycles":
-            yield Hint(end, "passes of the clip", Kind.UNIT, False, "so many times the length of the motion's clip")
+            yield Hint(end, "passes of the clip", Kind.UNITS, False, "so many times the length of the motion's clip")
         elif seconds is not None and seconds < float("inf"):
             said = f" at {spelled(rate)} frames a second" if unit == "frames" and rate is not None else ""
             label = f"= {spelled(seconds) or '0'} sec"
-            yield Hint(end, label, Kind.UNIT, False, f"{quantity.number} {unit} are {label[2:]}{said}")
+            yield Hint(end, label, Kind.UNITS, False, f"{quantity.number} {unit} are {label[2:]}{said}")
 
     def _given(self, call: syntax.Call, further: int) -> Iterator[Hint]:
         """Yield the parameters that arguments without a name are for."""
@@ -136,7 +142,7 @@ class _Hinter:
             if not _says(argument.value, parameter.name):
                 name = parameter.name.text
                 explanation = f"the parameter `{name}` of `{let.name.text}`"
-                yield Hint(argument.span.start + further, f"{name} =", Kind.PARAMETER, True, explanation)
+                yield Hint(argument.span.start + further, f"{name} =", Kind.PARAMETERS, True, explanation)
 
 
 def _says(value: syntax.Motion | syntax.Quantity, name: syntax.Name) -> bool:

@@ -3,8 +3,8 @@
 import pytest
 
 from mlmg_lang.catalog import Catalog
-from mlmg_lang.front_end import analyse
-from mlmg_lang.ide.foreseen import foreseen
+from mlmg_lang.front_end import analyse, analyse_again
+from mlmg_lang.ide.foreseen import foreseen, still_foreseen
 from mlmg_lang.planning.estimate import Estimate, Playing, Trip, exactly
 from mlmg_lang.planning.forecast import forecast
 from mlmg_lang.planning.names import Names
@@ -71,3 +71,15 @@ def test_what_depends_on_chance_is_not_sure(reference: Catalog) -> None:
     names = Names(reference)
     told = foreseen(plan, forecast(plan, names, OneSecond()), names)
     assert [one.sure for _, one in sorted(told.goings.items())] == [True, False]
+
+
+def test_after_an_edit_it_is_still_known_how_the_commands_went_that_it_has_left_alone(reference: Catalog) -> None:
+    before = analyse(Source("Idle_01\nWalk_01 for 3 sec\nTalk_01\n"), reference)
+    assert before.resolved is not None
+    names = Names(reference)
+    told = foreseen(before.resolved, forecast(before.resolved, names, OneSecond()), names)
+    now = analyse_again(before, Source("Idle_01\n\nWalk_02 for 30 sec\nTalk_01\n"))
+    left = still_foreseen(told, before, now)
+    assert [now.source.slice(span) for span in left.goings] == ["Idle_01", "Talk_01"]
+    assert [one.arrives_s for one in left.goings.values()] == [0, 5]
+    assert still_foreseen(told, before, analyse(now.source, reference)).goings == {}

@@ -63,22 +63,29 @@ def test_what_is_taken_and_when_it_arrives_stands_behind_a_command(reference: Ca
     guess = Going((("Full-Body", "Idle_02"),), None, sure=False)
     outlook = Said({5: going, 31: guess})
     text = "IDLE\nWALK with Upper-Body TALK\nIDLE"
-    expected = "IDLE\nWALK with Upper-Body TALK<Walk_01 with Talk_01 at 3 sec>\nIDLE<~ Idle_02>"
+    expected = "IDLE\nWALK with Upper-Body TALK<Walk_01 with Talk_01><at 3 sec>\nIDLE<~ Idle_02>"
     assert hinted(text, reference, outlook) == expected
     told = hints(analyse(Source(text), reference), Span(0, len(text)), outlook)
     assert [one.explanation for one in told] == [
-        "Walk_01 on Full-Body, Talk_01 on Upper-Body; all parts have arrived at 3 sec from the beginning",
+        "Walk_01 on Full-Body, Talk_01 on Upper-Body",
+        "all parts have arrived at 3 sec from the beginning",
         "probably Idle_02 on Full-Body",
     ]
+
+
+def test_what_is_written_is_not_said_again(reference: Catalog) -> None:
+    going = Going((("Full-Body", "Walk_01"),), 2.0, sure=True)
+    assert hinted("Walk_01 for 1 min", reference, Said({0: going})) == "Walk_01 for 1 min<= 60 sec><at 2 sec>"
 
 
 def test_each_kind_can_be_had_by_itself(reference: Catalog) -> None:
     text = GREET + "GREET(WALK, 1 min)"
     outlook = Said({len(GREET): Going((("Full-Body", "Walk_01"),), 1.5, sure=True)})
     by_kind = {
-        Kind.MOTIONS: "GREET(WALK, 1 min)<Walk_01 at 1.5 sec>",
-        Kind.UNIT: "GREET(WALK, 1 min<= 60 sec>)",
-        Kind.PARAMETER: "GREET(<who => WALK, <t => 1 min)",
+        Kind.MOTIONS: "GREET(WALK, 1 min)<Walk_01>",
+        Kind.ARRIVALS: "GREET(WALK, 1 min)<at 1.5 sec>",
+        Kind.UNITS: "GREET(WALK, 1 min<= 60 sec>)",
+        Kind.PARAMETERS: "GREET(<who => WALK, <t => 1 min)",
     }
     for kind, expected in by_kind.items():
         assert hinted(text, reference, outlook, frozenset({kind})) == GREET + expected

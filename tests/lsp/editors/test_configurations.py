@@ -70,7 +70,7 @@ def test_the_extension_registers_each_command_that_it_offers() -> None:
 def test_the_extension_reads_each_setting_that_it_has_and_no_other() -> None:
     settings = {name.removeprefix("mlmg.") for name in package()["contributes"]["configuration"]["properties"]}
     # The client library reads the trace by the id of the client.
-    assert settings == {*re.findall(r'kept\.get<[^(]+>\("(\w+)"\)', source()), "trace.server"}
+    assert settings == {*re.findall(r'kept\.get<[^(]+>\("([\w.]+)"\)', source()), "trace.server"}
 
 
 def test_the_extension_copies_its_grammar_from_the_language() -> None:

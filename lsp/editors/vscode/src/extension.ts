@@ -37,14 +37,14 @@ async function restart(output: vscode.OutputChannel): Promise<void> {
   if (!vscode.workspace.isTrusted) {
     return;
   }
-  const { path, library, allowUse } = settings();
+  const { path, library, allowUse, inlayHints } = settings();
   const fresh = new LanguageClient(
     "mlmg",
     "Motion Script",
     { command: path, args: ["lsp", "--stdio"] },
     {
       documentSelector: [{ language: LANGUAGE }],
-      initializationOptions: { ...(library ? { library } : {}), allowUse },
+      initializationOptions: { ...(library ? { library } : {}), allowUse, inlayHints },
       outputChannel: output,
       synchronize: {
         configurationSection: "mlmg",

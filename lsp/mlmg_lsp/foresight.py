@@ -1,0 +1,143 @@
+"""How the commands of open texts will go, worked out behind what is asked: it may take longer than a hint should."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Final
+
+from mlmg_lsp.work import off_loop
+
+if TYPE_CHECKING:
+    from mlmg_lang.analysis import Analysis
+    from mlmg_lang.explaining.travel import MotionTravel
+    from mlmg_lang.ide.foreseen import Foreseen
+    from mlmg_lsp.documents import Snapshot
+    from mlmg_lsp.libraries import Shelved
+
+_GRACE_S: Final = 0.1
+"""So long it is waited for; what takes longer, the client is told of when it is there."""
+_MOST_USES: Final = 200
+"""So often ways between motions are kept for the next time; an editor stays open for weeks."""
+
+
+@dataclass(slots=True)
+class _Known:
+    """What is known of a text, or is being found out.
+
+    Attributes
+    ----------
+    last : the last that was found out, and of which analysis. is_late : whether somebody has gone without.
+    """
+
+    analysis: Analysis
+    task: asyncio.Task[Foreseen | None]
+    last: tuple[Foreseen, Analysis] | None
+    is_late: bool = False
+
+
+class Foresight:
+    """What is foreseen of all texts of one client."""
+
+    def __init__(self, is_there: Callable[[], object], failed: Callable[[Exception], object]) -> None:
+        """Take what is to be told.
+
+        Parameters
+        ----------
+        is_there : called when something is known that was asked for in vain. failed : called with what went wrong.
+        """
+        self._is_there = is_there
+        self._failed = failed
+        self._known: dict[str, _Known] = {}
+        self._travel: tuple[Shelved, MotionTravel, int] | None = None
+        self._one_by_one = asyncio.Lock()
+
+    async def of(self, snapshot: Snapshot) -> Foreseen | None:
+        """Return how the commands of a text will go, as far as that is known; None if it cannot be known.
+
+        A client that could not be told later waits until it is.
+        """
+        known = self._begun(snapshot)
+        wait = _GRACE_S if "inlay_hint" in snapshot.client.refreshed else None
+        await asyncio.wait({known.task}, timeout=wait)
+        if known.task.done():
+            return None if known.task.cancelled() else known.task.result()
+        known.is_late = True
+        if known.last is None:
+            return None
+        from mlmg_lang.ide.foreseen import still_foreseen
+
+        told, before = known.last
+        return await off_loop(lambda: still_foreseen(told, before, snapshot.analysis))
+
+    def stop(self, uri: str) -> None:
+        """Work no longer at what has been edited meanwhile."""
+        if uri in self._known:
+            self._known[uri].task.cancel()
+
+    def forget(self, uri: str) -> None:
+        """Let go of a text."""
+        self.stop(uri)
+        self._known.pop(uri, None)
+
+    def end(self) -> None:
+        """Let go of all."""
+        for uri in list(self._known):
+            self.forget(uri)
+
+    def _begun(self, snapshot: Snapshot) -> _Known:
+        known = self._known.get(snapshot.uri)
+        if known is None or known.analysis is not snapshot.analysis or known.task.cancelled():
+            self.stop(snapshot.uri)
+            task = asyncio.ensure_future(self._foresee(snapshot))
+            known = _Known(snapshot.analysis, task, None if known is None else known.last)
+            self._known[snapshot.uri] = known
+        return known
+
+    async def _foresee(self, snapshot: Snapshot) -> Foreseen | None:
+        shelved = snapshot.shelved
+        if shelved is None or snapshot.analysis.found.wrong:
+            return None
+        async with self._one_by_one:
+            try:
+                told = await self._found_out(snapshot.analysis, shelved)
+            except Exception as error:
+                self._failed(error)
+                return None
+        known = self._known.get(snapshot.uri)
+        if known is not None and known.analysis is snapshot.analysis:
+            known.last = (told, snapshot.analysis)
+            if known.is_late:
+                self._is_there()
+        return told
+
+    async def _found_out(self, analysis: Analysis, shelved: Shelved) -> Foreseen:
+        travel = await self._travel_on(shelved)
+        from mlmg_lang.ide.foreseen import foreseen
+        from mlmg_lang.planning.forecast import forecast
+
+        def work() -> Foreseen:
+            plan = analysis.resolved
+            assert plan is not None, "there is a library, and nothing is wrong"
+            return foreseen(plan, forecast(plan, shelved.names, travel), shelved.names)
+
+        return await off_loop(work)
+
+    async def _travel_on(self, shelved: Shelved) -> MotionTravel:
+        """Return what knows the ways between the motions of a library, and keeps what it has worked out of them."""
+        if self._travel is None or self._travel[0] is not shelved or self._travel[2] >= _MOST_USES:
+            # What is being imported must not be interrupted.
+            self._travel = (shelved, await asyncio.shield(off_loop(lambda: _new_travel(shelved))), 0)
+        _, travel, n_uses = self._travel
+        self._travel = (shelved, travel, n_uses + 1)
+        return travel
+
+
+def _new_travel(shelved: Shelved) -> MotionTravel:
+    from mlmg_lang.explaining.travel import MotionTravel
+    from mlmg_lang.ide import foreseen
+    from mlmg_lang.planning import forecast
+
+    del foreseen, forecast  # they are there from now on
+    return MotionTravel(shelved.library)
