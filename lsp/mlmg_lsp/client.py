@@ -26,6 +26,7 @@ class Client:
     related, tags : whether diagnostics may have other places, and tags.
     snippets : whether completions may have places to fill in.
     markdown_of_completions, markdown_of_hovers : whether what there is to read may be Markdown.
+    indents : whether it can be told how to indent what a completion writes.
     versioned : whether edits may name the version that they are for.
     resolves_edits : whether it asks for the edit of a code action when that is chosen.
     progress, configuration, watches : whether it can be asked for these.
@@ -40,6 +41,7 @@ class Client:
     snippets: bool = False
     markdown_of_completions: bool = False
     markdown_of_hovers: bool = False
+    indents: bool = False
     versioned: bool = False
     resolves_edits: bool = False
     progress: bool = False
@@ -61,6 +63,7 @@ def client_from(capabilities: types.ClientCapabilities) -> Client:
     def texts(path: str) -> list[Any]:
         return list(map(_plain, has(path) or ()))
 
+    modes = set(has("text_document.completion.completion_item.insert_text_mode_support.value_set") or ())
     resolved = has("text_document.code_action.resolve_support.properties") or ()
     return Client(
         encoding=encoding_from(has("general.position_encodings") or ()),
@@ -71,6 +74,7 @@ def client_from(capabilities: types.ClientCapabilities) -> Client:
         snippets=bool(has("text_document.completion.completion_item.snippet_support")),
         markdown_of_completions="markdown" in texts("text_document.completion.completion_item.documentation_format"),
         markdown_of_hovers="markdown" in texts("text_document.hover.content_format"),
+        indents=modes.issuperset(types.InsertTextMode),
         versioned=bool(has("workspace.workspace_edit.document_changes")),
         resolves_edits="edit" in resolved,
         progress=bool(has("window.work_done_progress")),

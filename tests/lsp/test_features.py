@@ -75,6 +75,20 @@ def test_words_of_the_language_are_snippets_where_the_client_fills_them_in(clien
     assert repeat["textEdit"]["newText"].startswith("repeat ${1:2} {")
 
 
+def test_a_client_that_indents_is_told_to_leave_the_line_of_a_name_as_it_is(start, client):
+    item = {"snippetSupport": True, "insertTextModeSupport": {"valueSet": [1, 2]}}
+    indenting = start()
+    indenting.initialize({"textDocument": {"completion": {"completionItem": item}}})
+    for one, modes in ((indenting, (1, 2)), (client, (None, None))):
+        opened(one, "re")
+        assert [found.get("insertTextMode") for found in offered(one, "IDLE", "repeat")] == list(modes)
+
+
+def offered(client, *names: str):
+    found = {one["label"]: one for one in client.ask_at("completion", URI, 0, 0)["items"]}
+    return [found[name] for name in names]
+
+
 def test_there_is_more_to_read_of_what_is_chosen(client):
     opened(client, "")
     found = {one["label"]: one for one in client.ask_at("completion", URI, 0, 0)["items"]}
@@ -88,6 +102,19 @@ def test_without_a_library_words_and_own_definitions_are_offered(start):
     client.initialize()
     opened(client, "let stroll = WALK\n\n")
     assert {"stroll", "repeat", "wait"} <= set(labels(client, 1, 0))
+
+
+def test_in_an_empty_text_there_is_nothing_to_tell_and_nothing_to_do(client):
+    opened(client, "")
+    nowhere = {"start": {"line": 0, "character": 0}, "end": {"line": 0, "character": 0}}
+    asked = {"textDocument": {"uri": URI}}
+    assert client.ask_at("hover", URI, 0, 0) is None
+    assert client.ask("textDocument/codeAction", asked | {"range": nowhere, "context": {"diagnostics": []}}) == []
+    assert client.ask("textDocument/formatting", asked | {"options": OPTIONS}) == []
+    refused = client.outcome(
+        client.begin("textDocument/rename", asked | {"position": nowhere["start"], "newName": "x"})
+    )
+    assert "error" in refused
 
 
 # --- formatting ---

@@ -75,8 +75,14 @@ def _item(snapshot: Snapshot, one: Completion, rank: int, place: types.Range, wr
         filter_text=one.text if written.startswith('"') else None,
         text_edit=types.TextEdit(place, snippet or one.text),
         insert_text_format=types.InsertTextFormat.Snippet if snippet else None,
+        # Else a client may indent the line of a name as it sees fit.
+        insert_text_mode=_mode(snippet) if snapshot.client.indents else None,
         data={"uri": snapshot.uri, "name": one.name, "what": one.what.value, "graph": one.graph},
     )
+
+
+def _mode(snippet: str | None) -> types.InsertTextMode:
+    return types.InsertTextMode.AdjustIndentation if snippet else types.InsertTextMode.AsIs
 
 
 def _detail(one: Completion) -> str:

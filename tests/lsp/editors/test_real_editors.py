@@ -1,79 +1,187 @@
-"""The configurations in real editors, which start the real server: each is told of the mistake in a script."""
+"""The configurations in real editors, which start the real server, and do in each of many texts what a user does."""
 
+from __future__ import annotations
+
+import json
 import os
 import re
 import shutil
 import subprocess
 import sys
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from itertools import product
 from pathlib import Path
+from typing import Any
 
 import pytest
 
-EDITORS = Path(__file__).parents[3] / "lsp" / "editors"
-SCRIPT = "Idle_01\nIDLE # 😀走路\nWLAK for 10 sec\n"
-TOLD = "no tag or motion `WLAK` in this library"
+from mlmg_runtime.library import Library
 
-IN_NEOVIM = """
-vim.cmd("edit script.ms")
-for _ = 1, 100 do
-  if vim.wait(200, function() return #vim.diagnostic.get(0) > 0 end, 20) then break end
-  vim.api.nvim_buf_set_lines(0, -1, -1, false, { "" })
-end
-local told = vim.tbl_map(function(one)
-  return (one.lnum + 1) .. ":" .. vim.split(one.message, "\\n")[1]
-end, vim.diagnostic.get(0))
-vim.fn.writefile(told, "told.txt")
-vim.cmd("qall!")
-"""
-IN_VIM = """
-edit script.ms
-let tries = 0
-while tries < 400 && empty(ale#engine#GetLoclist(bufnr('')))
-  sleep 50m
-  let tries += 1
-endwhile
-call writefile(map(copy(ale#engine#GetLoclist(bufnr(''))), 'v:val.lnum . ":" . v:val.text'), 'told.txt')
-qall!
-"""
-IN_EGLOT = """
-(require 'eglot)
-(load "{configuration}")
-(setq eglot-sync-connect 20)
-(find-file "script.ms")
-(eglot--maybe-activate-editing-mode)
-(unless (eglot-current-server) (apply #'eglot (eglot--guess-contact)))
-(let ((tries 0))
-  (while (and (< tries 400) (null (flymake-diagnostics)))
-    (accept-process-output nil 0.05)
-    (flymake-start)
-    (setq tries (1+ tries))))
-(dolist (one (flymake-diagnostics))
-  (princ (format "%s:%s\\n" (line-number-at-pos (flymake-diagnostic-beg one)) (flymake-diagnostic-text one))))
-"""
-IN_LSP_MODE = """
-(require 'lsp-mode)
-(load "{configuration}")
-(setq lsp-auto-guess-root t lsp-restart 'ignore lsp-diagnostics-provider :flymake lsp-enable-snippet nil)
-(find-file "script.ms")
-(lsp)
-(let ((tries 0))
-  (while (and (< tries 400) (= 0 (hash-table-count (lsp-diagnostics))))
-    (accept-process-output nil 0.05)
-    (setq tries (1+ tries))))
-(maphash
-  (lambda (file told)
-    (dolist (one told)
-      (let ((at (gethash "line" (gethash "start" (gethash "range" one)))))
-        (princ (format "%s:%s\\n" (1+ at) (gethash "message" one))))))
-  (lsp-diagnostics))
-"""
+HERE = Path(__file__).parent
+EDITORS = HERE.parents[2] / "lsp" / "editors"
+ALE = "/usr/share/vim/vimfiles/pack/dist-bundle/opt/ale"
+LIMIT_S = 600
+
+
+@dataclass(frozen=True, slots=True)
+class Surroundings:
+    """What stands before that which is done, on its line and above it.
+
+    Attributes
+    ----------
+    canonical : the same as the formatter writes it. end : a line's end. ended : whether the last line has one, as after
+        formatting it always has.
+    """
+
+    name: str
+    before: str
+    canonical: str
+    end: str = "\n"
+    ended: bool = True
+
+
+@dataclass(frozen=True, slots=True)
+class Deed:
+    """What is done: in a text with `‸` where the cursor is.
+
+    Attributes
+    ----------
+    chosen : what is chosen, or the new name. after : the text that comes of it.
+    told : what the text is told to have, as what is underlined and the message, before it.
+    said : what is shown of what is under the cursor.
+    """
+
+    name: str
+    does: str
+    text: str
+    chosen: str = ""
+    after: str | None = None
+    told: tuple[tuple[str, str], ...] = ()
+    said: str | None = None
+
+
+PLAIN = "Idle_01 with Upper-Body "
+SURROUNDINGS = (
+    Surroundings("plain", PLAIN, PLAIN),
+    Surroundings("emoji", 'let "😀" = WALK\n"😀" with Upper-Body ', 'let "😀" = WALK\n"😀" with Upper-Body '),
+    Surroundings("chinese", "let 走路 = WALK\n走路 with Upper-Body ", "let 走路 = WALK\n走路 with Upper-Body "),
+    Surroundings("tabs", "Idle_01\twith\tUpper-Body\t", PLAIN),
+    Surroundings("crlf", f"# 😀\n{PLAIN}", f"# 😀\n{PLAIN}", end="\r\n"),
+    Surroundings("separator", "# a\u2028b\nIdle_01\u2028with Upper-Body ", f"# a\u2028b\n{PLAIN}"),
+    Surroundings("unended", PLAIN, PLAIN, ended=False),
+    Surroundings(
+        "all",
+        'let "😀 走路" = WALK # a\u2028b\n"😀 走路"\twith\u2028Upper-Body ',
+        'let "😀 走路" = WALK  # a\u2028b\n"😀 走路" with Upper-Body ',
+        end="\r\n",
+        ended=False,
+    ),
+)
+UNKNOWN = "no tag or motion `{}` in this library"
+DEEDS = (
+    Deed("diagnose", "diagnose", "TLAK for 2 sec\n", told=(("TLAK", UNKNOWN.format("TLAK")),)),
+    Deed("complete", "complete", "TAL‸ for 2 sec\n", "TALK", "TALK for 2 sec\n", (("TAL", UNKNOWN.format("TAL")),)),
+    Deed("hover", "hover", "TA‸LK for 2 sec\n", said="TALK"),
+    Deed("fix", "fix", "TL‸AK for 2 sec\n", "Write `TALK`", "TALK for 2 sec\n", (("TLAK", UNKNOWN.format("TLAK")),)),
+    Deed("format", "format", "TALK  for 2   sec\n", after="TALK for 2 sec\n"),
+    Deed(
+        "rename",
+        "rename",
+        "gr‸eet for 2 sec\nlet greet = TALK\n",
+        "wave",
+        "wave for 2 sec\nlet wave = TALK\n",
+    ),
+)
+
+
+ALONE = Surroundings("alone", "", "")
+IN_CHINESE = "let 走路 = WALK\nIdle_01\n"
+ALONE_DEEDS = (
+    Deed("empty", "diagnose", ""),
+    Deed("complete-empty", "complete", "‸", "IDLE", "IDLE"),
+    Deed("format-empty", "format", "", after=""),
+    Deed(
+        "complete-hyphen",
+        "complete",
+        "IDLE with Upper-Bo‸ TALK\n",
+        "Upper-Body",
+        "IDLE with Upper-Body TALK\n",
+        (("Upper-Bo", "no graph `Upper-Bo` in this library"),),
+    ),
+    Deed(
+        "complete-chinese",
+        "complete",
+        IN_CHINESE + "走‸ for 2 sec\n",
+        "走路",
+        IN_CHINESE + "走路 for 2 sec\n",
+        (("走", UNKNOWN.format("走")),),
+    ),
+    Deed(
+        "rename-chinese",
+        "rename",
+        IN_CHINESE + "走‸路 for 2 sec\n",
+        "行走",
+        "let 行走 = WALK\nIdle_01\n行走 for 2 sec\n",
+    ),
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Task:
+    """A deed in its surroundings.
+
+    Attributes
+    ----------
+    text, after : as they are on disk.
+    """
+
+    file: str
+    deed: Deed
+    text: str
+    after: str
+
+    @property
+    def asked(self) -> dict[str, Any]:
+        """Return it as the editor has it: lines from 1, columns from 0 in characters."""
+        above, _, _ = self.text.partition("‸")
+        lines = above.replace("\r\n", "\n").split("\n")
+        return {
+            "file": self.file,
+            "do": self.deed.does,
+            "line": len(lines),
+            "column": len(lines[-1]),
+            "with": self.deed.chosen,
+            "told": len(self.deed.told),
+            "left": len(self.deed.told) if self.deed.after is None else 0,
+        }
+
+    @property
+    def answered(self) -> dict[str, Any]:
+        """Return what is to come of it."""
+        told = [list(one) for one in self.deed.told]
+        return {"told": told, "said": self.deed.said, "saved": self.after}
+
+
+def tasks() -> Iterator[Task]:
+    for place, deed in (*product(SURROUNDINGS, DEEDS), *((ALONE, deed) for deed in ALONE_DEEDS)):
+        text = place.before + deed.text
+        after = text.replace("‸", "") if deed.after is None else place.before + deed.after
+        if not place.ended:
+            text, after = text.removesuffix("\n"), after.removesuffix("\n")
+        if deed.does == "format":
+            after = place.canonical + (deed.after or "")
+        on_disk = (one.replace("\n", place.end) for one in (text, after))
+        yield Task(f"{place.name}-{deed.name}.ms", deed, *on_disk)
 
 
 @pytest.fixture
-def folder(tmp_path: Path) -> Path:
-    """Return a folder with a script, and the library that it is read against."""
-    (tmp_path / "script.ms").write_text(SCRIPT, "utf-8")
-    (tmp_path / "mlmg.toml").write_text('library = "demo"\n', "utf-8")
+def folder(tmp_path: Path, demo_library: Library) -> Path:
+    """Return a folder with all texts, and the library that they are read against."""
+    for task in tasks():
+        (tmp_path / task.file).write_text(task.text.replace("‸", ""), "utf-8", newline="")
+    (tmp_path / "mlmg.toml").write_text(f'library = "{demo_library.path}"\n', "utf-8")
+    (tmp_path / "tasks.json").write_text(json.dumps([task.asked for task in tasks()]), "utf-8")
     return tmp_path
 
 
@@ -82,9 +190,32 @@ def run(folder: Path, *command: str) -> str:
     path = os.pathsep.join((str(Path(sys.executable).parent), os.environ["PATH"]))
     environment = {**os.environ, "PATH": path, "HOME": str(folder), "XDG_CONFIG_HOME": str(folder)}
     done = subprocess.run(
-        command, cwd=folder, env=environment, stdin=subprocess.DEVNULL, capture_output=True, timeout=120, check=False
+        command,
+        cwd=folder,
+        env=environment,
+        stdin=subprocess.DEVNULL,
+        capture_output=True,
+        timeout=LIMIT_S,
+        check=False,
     )
     return (done.stdout + done.stderr).decode("utf-8", "replace")
+
+
+def check(folder: Path, said: str) -> None:
+    """Compare what an editor has done with what it should have."""
+    answers = folder / "answers.json"
+    assert answers.exists(), said
+    found = json.loads(answers.read_text("utf-8"))
+    seen = {task.file: _seen(folder, task, found.get(task.file, {"error": "no answer"})) for task in tasks()}
+    wrong = [f"{task.file}: {seen[task.file]}\n" for task in tasks() if seen[task.file] != task.answered]
+    assert not wrong, "".join(wrong)
+
+
+def _seen(folder: Path, task: Task, answer: Mapping[str, Any]) -> dict[str, Any]:
+    """Return an answer, with what was saved; of what is shown, only whether it has what it is to have."""
+    said, wanted = answer.get("said"), task.deed.said
+    shown = {} if wanted is None or wanted not in (said or "") else {"said": wanted}
+    return {"said": None, **answer, **shown, "saved": (folder / task.file).read_bytes().decode("utf-8")}
 
 
 def needs(*programs: str) -> pytest.MarkDecorator:
@@ -92,36 +223,41 @@ def needs(*programs: str) -> pytest.MarkDecorator:
     return pytest.mark.skipif(bool(missing), reason=f"not installed: {', '.join(missing)}")
 
 
-@needs("nvim")
-def test_neovim_is_told_of_a_mistake(folder: Path) -> None:
-    (folder / "drive.lua").write_text(IN_NEOVIM, "utf-8")
-    version = re.search(r"NVIM v0\.(\d+)", run(folder, "nvim", "--version"))
-    recent = version is None or int(version[1]) >= 11
-    configuration = EDITORS / "neovim" / f"motion_script_0_{11 if recent else 7}.lua"
-    said = run(folder, "nvim", "--headless", "-i", "NONE", "-u", str(configuration), "-c", "luafile drive.lua")
-    assert f"3:{TOLD}" in (folder / "told.txt").read_text("utf-8"), said
+def neovim(recent: bool) -> str | None:
+    """Return a Neovim that is, or is not, of 0.11 or newer: that of the tests' environment, or any on the path."""
+    beside = str(Path(sys.executable).with_name("nvim"))
+    for program in filter(None, (shutil.which(beside), shutil.which("nvim"))):
+        told = subprocess.run((program, "--version"), capture_output=True, text=True, check=False).stdout
+        version = re.search(r"NVIM v(\d+)\.(\d+)", told)
+        if version is not None and (tuple(map(int, version.groups())) >= (0, 11)) == recent:
+            return program
+    return None
 
 
-@needs("vim", "/usr/share/vim/vimfiles/pack/dist-bundle/opt/ale")
-def test_vim_with_ale_is_told_of_a_mistake(folder: Path) -> None:
+@pytest.mark.parametrize(
+    ("recent", "configuration"), [(False, "motion_script_0_7.lua"), (True, "motion_script_0_11.lua")]
+)
+def test_neovim_does_all_in_each_text(folder: Path, recent: bool, configuration: str) -> None:
+    program = neovim(recent)
+    if program is None:
+        pytest.skip(f"not installed: Neovim {'from' if recent else 'before'} 0.11")
+    options = ("--headless", "-i", "NONE", "-u", str(EDITORS / "neovim" / configuration))
+    said = run(folder, program, *options, "-c", f"luafile {HERE / 'drive_neovim.lua'}")
+    check(folder, said)
+
+
+@needs("vim", ALE)
+def test_vim_with_ale_does_all_in_each_text(folder: Path) -> None:
     configuration = (EDITORS / "vim" / "motion_script.vim").read_text("utf-8")
     (folder / "vimrc").write_text(f"set nocompatible\npackadd ale\nfiletype plugin on\n{configuration}", "utf-8")
-    (folder / "drive.vim").write_text(IN_VIM, "utf-8")
-    said = run(folder, "vim", "-u", "vimrc", "-es", "-i", "NONE", "-S", "drive.vim")
-    assert f"3:{TOLD}" in (folder / "told.txt").read_text("utf-8"), said
+    said = run(folder, "vim", "-u", "vimrc", "-es", "-i", "NONE", "-S", str(HERE / "drive_vim.vim"))
+    check(folder, said)
 
 
-@needs("emacs", "/usr/share/doc/elpa-eglot")
-def test_emacs_with_eglot_is_told_of_a_mistake(folder: Path) -> None:
-    configuration = EDITORS / "emacs" / "motion-script-eglot.el"
-    (folder / "drive.el").write_text(IN_EGLOT.format(configuration=configuration), "utf-8")
-    said = run(folder, "emacs", "--batch", "-l", "drive.el")
-    assert f"3:mlmg [MS021]: {TOLD}" in said
-
-
-@needs("emacs", "/usr/share/doc/elpa-lsp-mode")
-def test_emacs_with_lsp_mode_is_told_of_a_mistake(folder: Path) -> None:
-    configuration = EDITORS / "emacs" / "motion-script-lsp-mode.el"
-    (folder / "drive.el").write_text(IN_LSP_MODE.format(configuration=configuration), "utf-8")
-    said = run(folder, "emacs", "--batch", "-l", "drive.el")
-    assert f"3:{TOLD}" in said
+@pytest.mark.parametrize("client", ["eglot", "lsp-mode"])
+def test_emacs_does_all_in_each_text(folder: Path, client: str) -> None:
+    if shutil.which("emacs") is None or not Path(f"/usr/share/doc/elpa-{client}").exists():
+        pytest.skip(f"not installed: Emacs with {client}")
+    files = (EDITORS / "emacs" / f"motion-script-{client}.el", HERE / "drive_emacs.el", HERE / f"drive_{client}.el")
+    said = run(folder, "emacs", "--batch", *(word for file in files for word in ("-l", str(file))), "-f", "drive")
+    check(folder, said)
