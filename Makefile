@@ -43,9 +43,11 @@ recording: $(VENV)/installed
 grammars: $(VENV)/installed
 	$(BIN)/python -m mlmg_grammar.generate --docs docs
 
-# The extension for VS Code; needs node 20 or newer and npm.
-vsix:
+# The extension for VS Code, with the wheel that it can install; needs node 20 or newer and npm.
+vsix: $(VENV)/installed
 	mkdir -p dist
+	rm -rf lsp/editors/vscode/wheel
+	$(BIN)/pip wheel --quiet --no-deps --wheel-dir lsp/editors/vscode/wheel .
 	cd lsp/editors/vscode && npm install --no-package-lock && npm test && npm run vsix
 	@echo "install it: code --install-extension dist/motion-script.vsix"
 

@@ -22,7 +22,7 @@ def npm(*arguments: str) -> None:
 
 
 @needs_tools
-def test_the_words_of_a_script_have_their_scopes() -> None:
+def test_the_tests_of_the_extension_itself_pass() -> None:
     npm("test")
 
 
@@ -34,4 +34,5 @@ def test_the_extension_is_packaged_with_all_that_it_needs_and_nothing_else(tmp_p
         names = {name.removeprefix("extension/") for name in archive.namelist() if name.startswith("extension/")}
     pages = {f"walkthrough/{page.name}" for page in (VSCODE / "walkthrough").glob("*.md")}
     grammars = {"syntaxes/motion-script.tmLanguage.json", "syntaxes/language-configuration.json"}
-    assert names == {"package.json", "readme.md", "LICENSE.txt", "dist/extension.js", *pages, *grammars}
+    wheels = {f"wheel/{wheel.name}" for wheel in (VSCODE / "wheel").glob("*.whl")}
+    assert names == {"package.json", "readme.md", "LICENSE.txt", "dist/extension.js", *pages, *grammars, *wheels}

@@ -1,136 +1,133 @@
-// Each command runs the same program as a terminal would, on the file as it is saved.
+// What one can do with a script; the server does it, with the text as it stands in the editor.
 import { execFile } from "node:child_process";
 import { mkdtemp, readFile, rm } from "node:fs/promises";
 import { tmpdir } from "node:os";
-import { dirname, join } from "node:path";
+import { basename, join } from "node:path";
 import * as vscode from "vscode";
 
-import { compiler, LANGUAGE, settings } from "./settings";
+import type { Server } from "./server";
+import { LANGUAGE } from "./settings";
 
-interface Script {
-  readonly file: string;
-  readonly folder: string;
-  readonly path: string;
-  readonly options: readonly string[];
-}
+const FIRST_SCRIPT = "Idle_01\nWALK for 5 sec\nWALK with Upper-Body TALK for 6 sec\nIdle_01\n";
 
-interface Ran {
-  readonly code: number;
-  readonly output: string;
-  readonly errors: string;
-}
-
-/** Plays a script into a BVH file that one chooses. */
-export async function play(log: vscode.OutputChannel, target?: unknown): Promise<void> {
-  const script = await saved(target);
+/** Plays the script in the editor into a BVH file: beside it, or where one says if it is no file yet. */
+export async function play(server: Server): Promise<void> {
+  const script = scriptInEditor();
   if (script === undefined) {
     return;
   }
-  const proposed = vscode.Uri.file(script.file.replace(/\.ms$/, "") + ".bvh");
-  const chosen = await vscode.window.showSaveDialog({ defaultUri: proposed, filters: { Motion: ["bvh"] } });
-  if (chosen === undefined) {
-    return;
+  const isFile = script.uri.scheme === "file";
+  const to = isFile ? undefined : await vscode.window.showSaveDialog({ filters: { Motion: ["bvh"] } });
+  if (isFile || to !== undefined) {
+    await server.ask("mlmg.play", { uri: String(script.uri), ...(to ? { to: String(to) } : {}) });
   }
-  const report = chosen.fsPath.replace(/\.bvh$/, "") + ".json";
-  if (await performed(log, script, chosen.fsPath, report)) {
-    const show = "Show in folder";
-    if ((await vscode.window.showInformationMessage(`Written: ${chosen.fsPath}`, show)) === show) {
-      await vscode.commands.executeCommand("revealFileInOS", chosen);
+}
+
+/** Shows what will be played, and why, beside the script in the editor. */
+export async function explain(server: Server): Promise<void> {
+  const script = scriptInEditor();
+  if (script !== undefined) {
+    await server.ask("mlmg.explain", { uri: String(script.uri) });
+  }
+}
+
+/** Opens a script to begin with. */
+export async function newScript(): Promise<void> {
+  const script = await vscode.workspace.openTextDocument({ language: LANGUAGE, content: FIRST_SCRIPT });
+  await vscode.window.showTextDocument(script);
+}
+
+/** The moving figures beside scripts, one for each. */
+export class Previews {
+  private readonly panels = new Map<string, vscode.WebviewPanel>();
+
+  constructor(
+    private readonly server: Server,
+    private readonly log: vscode.OutputChannel,
+  ) {}
+
+  /** Plays the script in the editor, and shows the motion beside it. */
+  async show(): Promise<void> {
+    const script = scriptInEditor();
+    const page = script && (await this.played(script));
+    if (script !== undefined && page !== undefined) {
+      this.panelOf(script).webview.html = page;
     }
   }
-}
 
-/** Plays a script and shows the motion beside it. */
-export async function preview(log: vscode.OutputChannel, target?: unknown): Promise<void> {
-  const script = await saved(target);
-  if (script === undefined) {
-    return;
-  }
-  const folder = await mkdtemp(join(tmpdir(), "motion-script-"));
-  try {
-    const [motion, report, page] = ["motion.bvh", "motion.json", "motion.html"].map((name) => join(folder, name));
-    const view = ["view", motion, "--report", report, "-o", page];
-    if ((await performed(log, script, motion, report)) && (await succeeded(log, script.path, view, script.folder))) {
-      const panel = vscode.window.createWebviewPanel(
-        "motionScript.preview",
-        `Motion of ${script.file.split(/[\\/]/).pop()}`,
-        { viewColumn: vscode.ViewColumn.Beside, preserveFocus: true },
-        { enableScripts: true, retainContextWhenHidden: true, localResourceRoots: [] },
-      );
-      panel.webview.html = await readFile(page, "utf8");
+  /** Shows the motion of what has been saved, where it is shown already. */
+  async renew(script: vscode.TextDocument): Promise<void> {
+    if (this.panels.has(String(script.uri)) && this.server.program !== undefined && !isWrong(script)) {
+      const page = await this.played(script);
+      const panel = this.panels.get(String(script.uri));
+      if (page !== undefined && panel !== undefined) {
+        panel.webview.html = page;
+      }
     }
-  } finally {
-    await rm(folder, { recursive: true, force: true });
   }
-}
 
-/** Opens what `mlmg explain` says of a script beside it. */
-export async function explain(log: vscode.OutputChannel, target?: unknown): Promise<void> {
-  const script = await saved(target);
-  if (script === undefined) {
-    return;
+  private async played(script: vscode.TextDocument): Promise<string | undefined> {
+    const folder = await mkdtemp(join(tmpdir(), "motion-script-"));
+    try {
+      const path = join(folder, nameOf(script));
+      const [motion, report, page] = [`${path}.bvh`, `${path}.json`, `${path}.html`];
+      const to = { to: String(vscode.Uri.file(motion)), report: String(vscode.Uri.file(report)), shown: false };
+      const done = await this.server.ask("mlmg.play", { uri: String(script.uri), ...to });
+      const program = this.server.program;
+      const view = ["view", motion, "--report", report, "-o", page];
+      return done && program && (await this.ran(program, view)) ? await pageFrom(page) : undefined;
+    } finally {
+      await rm(folder, { recursive: true, force: true });
+    }
   }
-  const ran = await run(script.path, ["explain", script.file, ...script.options], script.folder);
-  if (ran.code !== 0) {
-    await tell(log, ran);
-    return;
-  }
-  const content = await vscode.workspace.openTextDocument({ content: ran.output, language: "plaintext" });
-  await vscode.window.showTextDocument(content, { viewColumn: vscode.ViewColumn.Beside, preserveFocus: true });
-}
 
-/** Returns the script that a command is about, saved; the one in the editor, unless a lens says which. */
-async function saved(target: unknown): Promise<Script | undefined> {
-  const uri = target instanceof vscode.Uri ? target : typeof target === "string" ? vscode.Uri.parse(target) : undefined;
-  const open = vscode.window.activeTextEditor?.document;
-  const document = uri === undefined ? open : await vscode.workspace.openTextDocument(uri);
-  if (document === undefined || document.languageId !== LANGUAGE) {
-    void vscode.window.showInformationMessage("Open a Motion Script first: a file that ends in .ms.");
-    return undefined;
-  }
-  if (!vscode.workspace.isTrusted || !(await document.save()) || document.uri.scheme !== "file") {
-    return undefined;
-  }
-  const { path, library, allowUse } = settings(document.uri);
-  const root = vscode.workspace.getWorkspaceFolder(document.uri)?.uri.fsPath ?? dirname(document.uri.fsPath);
-  const uses = allowUse.flatMap((folder) => ["--allow-use", folder]);
-  return {
-    file: document.uri.fsPath,
-    folder: root,
-    path,
-    options: [...(library ? ["--library", library] : []), ...uses],
-  };
-}
-
-async function performed(log: vscode.OutputChannel, script: Script, motion: string, report: string): Promise<boolean> {
-  const options = [script.file, "-o", motion, "--report", report, ...script.options];
-  return succeeded(log, compiler(script.path), options, script.folder);
-}
-
-async function succeeded(log: vscode.OutputChannel, path: string, options: string[], folder: string): Promise<boolean> {
-  const running = { location: vscode.ProgressLocation.Window, title: "Motion Script is playing" };
-  const ran = await vscode.window.withProgress(running, () => run(path, options, folder));
-  if (ran.code !== 0) {
-    await tell(log, ran);
-  }
-  return ran.code === 0;
-}
-
-function run(path: string, options: readonly string[], folder: string): Promise<Ran> {
-  return new Promise((resolve) => {
-    const limits = { cwd: folder, maxBuffer: 1 << 28, env: { ...process.env, NO_COLOR: "1" } };
-    execFile(path, options, limits, (error, output, errors) => {
-      const code = error === null ? 0 : typeof error.code === "number" ? error.code : 127;
-      resolve({ code, output, errors: errors || (error === null ? "" : error.message) });
+  private ran(program: string, options: readonly string[]): Promise<boolean> {
+    return new Promise((resolve) => {
+      execFile(program, options, { env: { ...process.env, NO_COLOR: "1" } }, (error, _output, errors) => {
+        if (error !== null) {
+          this.log.appendLine(errors || error.message);
+          void vscode.window.showErrorMessage((errors || error.message).split("\n", 1)[0] ?? "");
+        }
+        resolve(error === null);
+      });
     });
-  });
+  }
+
+  private panelOf(script: vscode.TextDocument): vscode.WebviewPanel {
+    const key = String(script.uri);
+    const known = this.panels.get(key);
+    if (known !== undefined) {
+      known.reveal(undefined, true);
+      return known;
+    }
+    const at = { viewColumn: vscode.ViewColumn.Beside, preserveFocus: true };
+    const how = { enableScripts: true, retainContextWhenHidden: true, localResourceRoots: [] };
+    const panel = vscode.window.createWebviewPanel("motionScript.preview", `Motion of ${nameOf(script)}`, at, how);
+    panel.onDidDispose(() => this.panels.delete(key));
+    this.panels.set(key, panel);
+    return panel;
+  }
 }
 
-async function tell(log: vscode.OutputChannel, ran: Ran): Promise<void> {
-  log.appendLine(ran.errors);
-  const show = "Show all";
-  const first = ran.errors.split("\n", 1)[0] || `it ended with ${ran.code}`;
-  if ((await vscode.window.showErrorMessage(first, show)) === show) {
-    log.show(true);
+function scriptInEditor(): vscode.TextDocument | undefined {
+  const script = vscode.window.activeTextEditor?.document;
+  if (script?.languageId === LANGUAGE) {
+    return script;
   }
+  void vscode.window.showInformationMessage("Open a Motion Script first: a file that ends in .ms.");
+  return undefined;
+}
+
+function isWrong(script: vscode.TextDocument): boolean {
+  const found = vscode.languages.getDiagnostics(script.uri);
+  return found.some((one) => one.severity === vscode.DiagnosticSeverity.Error);
+}
+
+function nameOf(script: vscode.TextDocument): string {
+  return basename(script.uri.path).replace(/\.ms$/, "");
+}
+
+/** The player fills the panel; editors put a margin around pages. */
+async function pageFrom(path: string): Promise<string> {
+  return (await readFile(path, "utf8")).replace("</head>", "<style>body { padding: 0 }</style></head>");
 }

@@ -1,70 +1,46 @@
 // The client of `mlmg lsp`, and the commands that play, show and explain a script.
+import { homedir } from "node:os";
 import * as vscode from "vscode";
-import { LanguageClient } from "vscode-languageclient/node";
 
-import { explain, play, preview } from "./commands";
-import { LANGUAGE, settings } from "./settings";
+import { Previews, explain, newScript, play } from "./commands";
+import { install } from "./installing";
+import type { Machine } from "./programs";
+import { Server } from "./server";
+import { LANGUAGE } from "./settings";
 
-let client: LanguageClient | undefined;
+let stop: () => Promise<void> = () => Promise.resolve();
 
 export async function activate(context: vscode.ExtensionContext): Promise<void> {
-  const output = vscode.window.createOutputChannel("Motion Script");
-  const register = (name: string, run: (target?: unknown) => Promise<void>): vscode.Disposable =>
+  const log = vscode.window.createOutputChannel("Motion Script");
+  const status = vscode.languages.createLanguageStatusItem("motionScript.server", { language: LANGUAGE });
+  status.name = "Motion Script";
+  const machine = machineHere();
+  const server = new Server(log, status, machine);
+  const previews = new Previews(server, log);
+  stop = () => server.stop();
+  const register = (name: string, run: () => unknown): vscode.Disposable =>
     vscode.commands.registerCommand(`motionScript.${name}`, run);
   context.subscriptions.push(
-    output,
-    register("play", (target) => play(output, target)),
-    register("preview", (target) => preview(output, target)),
-    register("explain", (target) => explain(output, target)),
-    register("restart", () => restart(output)),
-    vscode.workspace.onDidGrantWorkspaceTrust(() => restart(output)),
-    vscode.workspace.onDidChangeConfiguration(async (change) => {
-      if (change.affectsConfiguration("mlmg.path")) {
-        await restart(output);
-      }
-    }),
+    log,
+    status,
+    register("play", () => play(server)),
+    register("preview", () => previews.show()),
+    register("explain", () => explain(server)),
+    register("new", () => newScript()),
+    register("restart", () => server.restart()),
+    register("log", () => log.show(true)),
+    register("install", async () => (await install(context.extensionUri, machine, log)) && (await server.restart())),
+    vscode.workspace.onDidSaveTextDocument((script) => previews.renew(script)),
+    vscode.workspace.onDidGrantWorkspaceTrust(() => server.restart()),
+    vscode.workspace.onDidChangeConfiguration((change) => change.affectsConfiguration("mlmg.path") && server.restart()),
   );
-  await restart(output);
+  await server.restart();
 }
 
 export async function deactivate(): Promise<void> {
-  await client?.dispose();
-  client = undefined;
+  await stop();
 }
 
-async function restart(output: vscode.OutputChannel): Promise<void> {
-  await deactivate();
-  if (!vscode.workspace.isTrusted) {
-    return;
-  }
-  const { path, library, allowUse, inlayHints } = settings();
-  const fresh = new LanguageClient(
-    "mlmg",
-    "Motion Script",
-    { command: path, args: ["lsp", "--stdio"] },
-    {
-      documentSelector: [{ language: LANGUAGE }],
-      initializationOptions: { ...(library ? { library } : {}), allowUse, inlayHints },
-      outputChannel: output,
-      synchronize: {
-        configurationSection: "mlmg",
-        fileEvents: vscode.workspace.createFileSystemWatcher("**/{*.ms,*.mlmg,library.toml,mlmg.toml}"),
-      },
-    },
-  );
-  client = fresh;
-  try {
-    await fresh.start();
-  } catch (error) {
-    output.appendLine(String(error));
-    await offerSetting(path);
-  }
-}
-
-async function offerSetting(path: string): Promise<void> {
-  const open = "Open the setting";
-  const message = `\`${path} lsp\` could not be started, so scripts are only coloured. Install mlmg, or set mlmg.path.`;
-  if ((await vscode.window.showErrorMessage(message, open)) === open) {
-    await vscode.commands.executeCommand("workbench.action.openSettings", "mlmg.path");
-  }
+function machineHere(): Machine {
+  return { windows: process.platform === "win32", home: homedir(), searchPath: process.env["PATH"] ?? "" };
 }

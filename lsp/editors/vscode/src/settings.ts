@@ -1,4 +1,3 @@
-import { basename, dirname, extname, join } from "node:path";
 import * as vscode from "vscode";
 
 export const LANGUAGE = "motion-script";
@@ -10,8 +9,8 @@ export interface Settings {
   readonly inlayHints: Readonly<Record<string, boolean>>;
 }
 
-export function settings(scope?: vscode.Uri): Settings {
-  const kept = vscode.workspace.getConfiguration("mlmg", scope);
+export function settings(): Settings {
+  const kept = vscode.workspace.getConfiguration("mlmg");
   return {
     path: kept.get<string>("path") || "mlmg",
     library: kept.get<string>("library") ?? "",
@@ -23,10 +22,4 @@ export function settings(scope?: vscode.Uri): Settings {
       parameters: kept.get<boolean>("inlayHints.parameters") ?? true,
     },
   };
-}
-
-/** The compiler, which is installed beside `mlmg`. */
-export function compiler(path: string): string {
-  const name = `mlmgc${extname(basename(path)).toLowerCase() === ".exe" ? ".exe" : ""}`;
-  return dirname(path) === "." && !path.startsWith(".") ? name : join(dirname(path), name);
 }
