@@ -9,7 +9,7 @@ from typing import Final
 from mlmg_lang.formatting.page import Page
 from mlmg_lang.formatting.pieces import Piece, beginning, is_weight, span, statements, would_go_on
 from mlmg_lang.formatting.soundness import Soundness
-from mlmg_lang.formatting.words import shortest_number, words_of
+from mlmg_lang.formatting.words import Words, shortest_number, words_of
 from mlmg_lang.formatting.wrapping import INDENT, WIDTH, Row, columns, wrap
 from mlmg_lang.parsing.layout import Block, Layout, Line
 from mlmg_lang.parsing.tokens import Token
@@ -28,8 +28,21 @@ class Printer:
     kept : whether something was kept as written, because it cannot be read.
     """
 
-    def __init__(self, source: Source, tokens: Sequence[Token], layout: Layout) -> None:
-        """Take a script, its tokens and how they fall into lines and blocks."""
+    def __init__(
+        self,
+        source: Source,
+        tokens: Sequence[Token],
+        layout: Layout,
+        words: Words | None = None,
+        known: dict[tuple[str, ...], bool] | None = None,
+    ) -> None:
+        """Take a script, its tokens and how they fall into lines and blocks.
+
+        Parameters
+        ----------
+        words : of the script that this is a piece of; else they are found in it.
+        known : see `Soundness`.
+        """
         self._source = source
         self._tokens = tokens
         self._layout = layout
@@ -37,8 +50,8 @@ class Printer:
         self._at = 0  # the first token that has not been written yet
         self._page = Page()
         self._top = 0  # the row in which the last statement begins
-        self._sound = Soundness(source, tokens, layout)
-        self._words = words_of(statements(layout.items))
+        self._sound = Soundness(source, tokens, layout, {} if known is None else known)
+        self._words = words or words_of(statements(layout.items))
 
     def script(self) -> str:
         """Return the text of all."""

@@ -16,13 +16,24 @@ from mlmg_lang.source import Source, Span
 class Soundness:
     """Asks the parser about lines, once for each kind of line: the types of its tokens alone say whether it parses."""
 
-    def __init__(self, source: Source, tokens: Sequence[Token], layout: Layout) -> None:
-        """Take a script, its tokens, and what is wrong with its braces."""
+    def __init__(
+        self,
+        source: Source,
+        tokens: Sequence[Token],
+        layout: Layout,
+        known: dict[tuple[str, ...], bool] | None = None,
+    ) -> None:
+        """Take a script, its tokens, and what is wrong with its braces.
+
+        Parameters
+        ----------
+        known : which kinds of lines parse, as far as that has been asked; what is asked is added.
+        """
         self._source = source
         self._odd = {one.span for one in check_tokens(tokens) if one.severity is Severity.ERROR}
         self._braces = {one.span for one in layout.diagnostics}
         self._too_deep = [one.span.start for one in layout.diagnostics if one.span and one.code == "MS005"]
-        self._known: dict[tuple[str, ...], bool] = {}
+        self._known = {} if known is None else known
 
     def line(self, tokens: Sequence[Token]) -> bool:
         """Return whether a line is a statement without a mistake."""

@@ -52,7 +52,7 @@ def test_after_any_edits_a_client_that_asks_for_what_has_changed_has_what_a_fres
 ):
     has: list[int] = []
     result = ""
-    for snapshot in snapshots(encoding, 120):
+    for snapshot in snapshots(encoding, 80):
         answer = json.loads((delta(snapshot, since(result)) if result else full(snapshot, ALL)).text)
         has = answer["data"] if "data" in answer else applied(has, answer["edits"])
         result = answer["resultId"]
