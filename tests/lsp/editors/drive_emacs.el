@@ -14,7 +14,7 @@
   "Let Emacs go on until WANTED returns something; WHAT says what that is."
   (let ((begun (float-time)) found)
     (while (not (setq found (funcall wanted)))
-      (when (> (- (float-time) begun) 20)
+      (when (> (- (float-time) begun) 60)
         (error "Waited in vain for %s" what))
       (accept-process-output nil 0.02))
     found))

@@ -3,7 +3,7 @@
 local main
 
 local function await(wanted, what)
-  local deadline = vim.loop.now() + 20000
+  local deadline = vim.loop.now() + 60000
   while not wanted() do
     if vim.loop.now() > deadline then
       error("waited in vain for " .. what)

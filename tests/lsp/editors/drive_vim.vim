@@ -6,7 +6,7 @@ let g:ale_hover_to_preview = 1
 function! Await(wanted, what) abort
   let l:begun = reltime()
   while !a:wanted()
-    if reltimefloat(reltime(l:begun)) > 20
+    if reltimefloat(reltime(l:begun)) > 60
       throw 'waited in vain for ' . a:what
     endif
     sleep 5m
