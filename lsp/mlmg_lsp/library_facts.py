@@ -75,10 +75,14 @@ class LibraryFacts:
             return None
 
 
-def configuration_of(library: Path) -> Path | None:
-    """Return what a library was probably built from: the file beside it that is called as it is, or `library.toml`."""
-    beside = (library.with_suffix(".toml"), library.with_name("library.toml"))
-    return next((path for path in beside if path.is_file()), None)
+def configuration_of(library: Library) -> Path | None:
+    """Return the file that a library was built from; None if it is not there.
+
+    Where the library does not know, it is probably the file beside it that is called as it is, or `library.toml`.
+    """
+    beside = (library.path.with_suffix(".toml"), library.path.with_name("library.toml"))
+    known = beside if library.configuration is None else (library.configuration,)
+    return next((path for path in known if path.is_file()), None)
 
 
 def _place(file: TomlFile | None, key: tuple[str | int, ...]) -> Place | None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from pathlib import Path
 
 from mlmg_runtime.motion_graph import MotionGraph
 from mlmg_runtime.skeleton import Poses, Skeleton
@@ -32,7 +33,13 @@ class GraphReport:
 
 @dataclass(frozen=True, slots=True)
 class BuiltLibrary:
-    """A library in memory, ready to be written."""
+    """A library in memory, ready to be written.
+
+    Attributes
+    ----------
+    sources : clip -> its file, as a path from the folder of the configuration.
+    configuration : the file that it was built from; None if that is not to be kept.
+    """
 
     skeleton: Skeleton
     frame_rate: float
@@ -43,3 +50,4 @@ class BuiltLibrary:
     reports: tuple[GraphReport, ...]
     sources: Mapping[str, str]
     warnings: tuple[str, ...]
+    configuration: Path | None = None

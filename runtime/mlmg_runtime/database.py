@@ -62,7 +62,7 @@ def write_database(built: BuiltLibrary, path: Path) -> None:
             connection.executescript(_SCHEMA)
             connection.execute(f"PRAGMA application_id = {APPLICATION_ID}")
             connection.execute(f"PRAGMA user_version = {FORMAT_VERSION}")
-            _write_properties(connection, built)
+            _write_properties(connection, built, path)
             _write_clips(connection, built)
             _write_graphs(connection, built)
             checksums = [(part, checksum_of(connection.execute(query))) for part, query in PARTS.items()]
@@ -80,16 +80,32 @@ def _system_errors(path: Path) -> Iterator[None]:
         raise OSError(*cause, str(path)) from error
 
 
-def _write_properties(connection: sqlite3.Connection, built: BuiltLibrary) -> None:
+def _write_properties(connection: sqlite3.Connection, built: BuiltLibrary, path: Path) -> None:
     properties = {
         "frame_rate": built.frame_rate,
         "up": built.up,
         "start": built.start,
         "skeleton": [asdict(joint) for joint in built.skeleton.joints],
         "warnings": built.warnings,
+        "configuration": None if built.configuration is None else _from(path, built.configuration),
     }
     rows = [(name, json.dumps(value, ensure_ascii=False)) for name, value in properties.items()]
     connection.executemany("INSERT INTO property VALUES (?, ?)", rows)
+
+
+def _from(path: Path, configuration: Path) -> str | None:
+    """Return the way from a library to its configuration, if it leads only down, or only up.
+
+    Else it would name folders that have nothing to do with the library, and a library would be another one wherever it
+    is written.
+    """
+    folder = os.path.abspath(path.parent)
+    try:
+        way = Path(os.path.relpath(os.path.abspath(configuration), folder))
+    except ValueError:  # on another drive
+        return None
+    ups = [part == os.pardir for part in way.parts[:-1]]
+    return way.as_posix() if all(ups) or not any(ups) else None
 
 
 def _write_clips(connection: sqlite3.Connection, built: BuiltLibrary) -> None:

@@ -26,6 +26,7 @@ class Library:
     by_name : graph -> motion graph, the root first, parents before children.
     reports : graph -> what its building reported, see `built_library.GraphReport`.
     warnings : what was odd in the clips.
+    configuration : the file that it was built from, where that was when it was built; None if it is not known.
     """
 
     path: Path
@@ -36,6 +37,7 @@ class Library:
     by_name: Mapping[str, MotionGraph] = field(repr=False)
     reports: Mapping[str, dict[str, Any]] = field(repr=False)
     warnings: tuple[str, ...]
+    configuration: Path | None = None
     _poses: dict[str, Poses] = field(default_factory=dict, repr=False, compare=False)
 
     @cached_property
@@ -120,6 +122,7 @@ def open_library(path: str | Path) -> Library:
     with open_database(path) as connection:
         properties = read_properties(connection)
         graphs = read_graphs(connection)
+    configuration = properties.get("configuration")
     return Library(
         path=path,
         skeleton=skeleton_from_json(properties["skeleton"]),
@@ -129,4 +132,5 @@ def open_library(path: str | Path) -> Library:
         by_name={graph.name: graph for graph, _ in graphs},
         reports={graph.name: report for graph, report in graphs},
         warnings=tuple(properties["warnings"]),
+        configuration=None if configuration is None else path.parent / configuration,
     )

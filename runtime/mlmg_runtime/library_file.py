@@ -107,5 +107,8 @@ def check_rows(what: str, rows: Iterable[tuple[object, ...]], checksum: int | No
 
 
 def read_properties(connection: sqlite3.Connection) -> dict[str, Any]:
-    """Return the library's properties by name: frame_rate, up, start, skeleton, warnings."""
+    """Return the library's properties by name: frame_rate, up, start, skeleton, warnings, configuration.
+
+    The last, which older files do not have, is the way from the library to the file that it was built from, or None.
+    """
     return {name: json.loads(value) for name, value in read_part(connection, "property")}

@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 import random
+import subprocess
+import sys
 
 import pytest
 
 from mlmg_lang.front_end import analyse
 from mlmg_lang.source import Source
+from mlmg_runtime import bvh
+from mlmg_runtime.demo.clips import demo_clips
 
 URI = "untitled:Untitled-1"
 OPTIONS = {"tabSize": 4, "insertSpaces": True}
@@ -181,6 +185,26 @@ def test_a_tag_leads_to_the_lines_of_the_configuration_that_give_it(start, tmp_p
     opened(client, "WALK\n")
     (place,) = client.ask_at("definition", URI, 0, 1)
     assert (place["uri"], place["range"]["start"]["line"]) == (configuration.as_uri(), 2)
+
+
+def test_a_tag_and_a_motion_lead_to_the_files_that_the_library_was_built_from(start, tmp_path):
+    library, configuration = tmp_path / "built" / "library.mlmg", tmp_path / "library.toml"
+    library.parent.mkdir()
+    (library.parent / "library.toml").write_text('[tags.Full-Body]\nWalk_01 = ["WALK"]\n', encoding="utf-8")
+    clips = demo_clips()
+    for name in ("Idle_01", "Walk_01"):
+        bvh.write(clips[name], tmp_path / f"{name}.bvh")
+    tags = '[tags.Full-Body]\nIdle_01 = ["IDLE"]\nWalk_01 = ["WALK"]\n'
+    configuration.write_text(f'[library]\nclips = ["*.bvh"]\n[[graph]]\nname = "Full-Body"\n{tags}', encoding="utf-8")
+    program = [sys.executable, "-m", "mlmg_lang.commands.mlmg", "build", "library.toml", "-o", str(library)]
+    subprocess.run(program, cwd=tmp_path, check=True, capture_output=True)
+    client = start("--library", str(library))
+    client.initialize()
+    opened(client, "WALK\nWalk_01\n")
+    (place,) = client.ask_at("definition", URI, 0, 1)
+    assert (place["uri"], place["range"]["start"]["line"]) == (configuration.as_uri(), 6)
+    (place,) = client.ask_at("definition", URI, 1, 1)
+    assert place["uri"] == (tmp_path / "Walk_01.bvh").as_uri()
 
 
 def test_a_definition_is_renamed_wherever_it_is_used_and_a_motion_is_not(client):

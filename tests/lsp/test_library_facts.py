@@ -1,5 +1,6 @@
 """What editors are told of a library beyond its names is so in the library and in its configuration."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -76,8 +77,17 @@ def test_joints_and_transitions_are_those_of_the_graph(demo_library):
             assert numbers == expected
 
 
-def test_the_configuration_is_looked_for_beside_the_library(tmp_path):
-    library = tmp_path / "dance.mlmg"
+def test_the_configuration_is_the_one_that_the_library_knows_and_no_other(demo_library, tmp_path):
+    own = replace(demo_library, path=tmp_path / "dance.mlmg", configuration=tmp_path / "clips" / "library.toml")
+    (tmp_path / "library.toml").touch()
+    assert configuration_of(own) is None
+    (tmp_path / "clips").mkdir()
+    (tmp_path / "clips" / "library.toml").touch()
+    assert configuration_of(own) == tmp_path / "clips" / "library.toml"
+
+
+def test_of_a_library_that_does_not_know_the_configuration_is_looked_for_beside_it(demo_library, tmp_path):
+    library = replace(demo_library, path=tmp_path / "dance.mlmg")
     assert configuration_of(library) is None
     for name in ("library.toml", "dance.toml"):
         (tmp_path / name).touch()

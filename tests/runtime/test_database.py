@@ -5,7 +5,8 @@ import signal
 import sqlite3
 import subprocess
 import sys
-from contextlib import suppress
+from contextlib import closing, suppress
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -18,7 +19,7 @@ from mlmg_runtime.built_library import BuiltLibrary
 from mlmg_runtime.database import read_graphs, write_database
 from mlmg_runtime.errors import LibraryError
 from mlmg_runtime.library import Library, open_library
-from mlmg_runtime.library_file import APPLICATION_ID, FORMAT_VERSION, open_database
+from mlmg_runtime.library_file import APPLICATION_ID, FORMAT_VERSION, PARTS, checksum_of, open_database
 
 
 @pytest.fixture(scope="module")
@@ -258,3 +259,38 @@ def test_written_again_a_library_replaces_the_old_one(path: Path, built: BuiltLi
 
     write_database(replace(built, start="Sway"), path)
     assert open_library(path).start == "Sway"
+
+
+@pytest.mark.parametrize(
+    ("library", "configuration", "is_kept"),
+    [
+        ("own.mlmg", "library.toml", True),
+        ("own.mlmg", "clips/walks/library.toml", True),
+        ("build/today/own.mlmg", "library.toml", True),
+        ("build/own.mlmg", "clips/library.toml", False),
+    ],
+)
+def test_the_way_to_the_configuration_is_kept_if_it_leads_only_down_or_up(
+    built: BuiltLibrary, tmp_path: Path, library: str, configuration: str, is_kept: bool
+) -> None:
+    files = []
+    for folder in (tmp_path / "one", tmp_path / "two" / "deeper"):
+        for path in (folder / library, folder / configuration):
+            path.parent.mkdir(parents=True, exist_ok=True)
+        (folder / configuration).touch()
+        write_database(replace(built, configuration=folder / configuration), folder / library)
+        known = open_library(folder / library).configuration
+        assert is_kept == (known is not None)
+        assert known is None or known.samefile(folder / configuration)
+        files.append((folder / library).read_bytes())
+    assert files[0] == files[1]
+
+
+def test_a_library_that_was_built_before_that_was_kept_can_still_be_opened(path: Path) -> None:
+    with closing(sqlite3.connect(path)) as connection, connection:
+        connection.execute("DELETE FROM property WHERE name = 'configuration'")
+        value = checksum_of(connection.execute(PARTS["property"]))
+        connection.execute("UPDATE checksum SET value = ? WHERE part = 'property'", (value,))
+    library = open_library(path)
+    use(library)
+    assert library.configuration is None

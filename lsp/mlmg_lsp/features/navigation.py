@@ -36,7 +36,7 @@ def _facts(snapshot: Snapshot) -> LibraryFacts | None:
     if snapshot.shelved is None:
         return None
     library = snapshot.shelved.library
-    return LibraryFacts(library, configuration_of(library.path))
+    return LibraryFacts(library, configuration_of(library))
 
 
 def definition(snapshot: Snapshot, params: types.DefinitionParams) -> list[types.Location] | None:

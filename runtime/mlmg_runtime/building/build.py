@@ -79,6 +79,7 @@ def build_library(configuration: LibraryConfiguration, executor: Executor | None
         reports=tuple(report for _, report in built),
         sources={clip.name: _relative(clip.path, configuration) for clip in configuration.clips},
         warnings=clips.warnings,
+        configuration=configuration.path,
     )
 
 

@@ -8,6 +8,7 @@ import os
 import sys
 import tempfile
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 
@@ -84,4 +85,5 @@ def _build(path: Path, progress: Callable[[str, int, int], None]) -> None:
             bvh.write(clip, Path(folder) / f"{name}.bvh")
         configuration = Path(folder) / "library.toml"
         configuration.write_text(demo_configuration(), encoding="utf-8")
-        write_database(build_library(read_configuration(configuration), None, progress), path)
+        built = build_library(read_configuration(configuration), None, progress)
+        write_database(replace(built, configuration=None), path)  # which is gone when this is done
