@@ -18,7 +18,11 @@
 (defun drive-completions () (eglot-completion-at-point))
 (defun drive-fix () (let ((last-nonmenu-event t)) (call-interactively #'eglot-code-actions)))
 (defun drive-format () (eglot-format-buffer))
-(defun drive-rename (name) (eglot-rename name))
+
+(defun drive-rename (name)
+  "Give it another NAME, and say that files which are not open may be changed too."
+  (cl-letf (((symbol-function 'y-or-n-p) (lambda (_) t)))
+    (eglot-rename name)))
 
 (defun drive-hover ()
   "Return what the echo area shows of what is under the cursor."

@@ -64,7 +64,7 @@
   (drive-join)
   (drive-count (alist-get 'told task))
   (let* ((told (drive-told)) (said (drive-do task)))
-    (save-buffer)
+    (save-some-buffers t)
     (drive-count (alist-get 'left task))
     `((told . ,(vconcat told)) ,@(when said `((said . ,(substring-no-properties said)))))))
 

@@ -127,7 +127,7 @@ local function try(task)
   count(task.told)
   local answer = { told = told() }
   answer.said = does[task["do"]](task)
-  vim.cmd("write")
+  vim.cmd("wall")
   count(task.left)
   return answer
 end

@@ -109,7 +109,7 @@ function! Try(task) abort
   if type(l:said) == v:t_string
     let l:answer.said = l:said
   endif
-  write
+  wall
   call l:Count(a:task.left)
   return l:answer
 endfunction

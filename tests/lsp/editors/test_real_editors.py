@@ -49,7 +49,7 @@ class Deed:
     ----------
     chosen : what is chosen, or the new name. after : the text that comes of it.
     told : what the text is told to have, as what is underlined and the message, before it.
-    said : what is shown of what is under the cursor.
+    said : what is shown of what is under the cursor. beside : what comes of the file that is used.
     """
 
     name: str
@@ -59,6 +59,7 @@ class Deed:
     after: str | None = None
     told: tuple[tuple[str, str], ...] = ()
     said: str | None = None
+    beside: str | None = None
 
 
 PLAIN = "Idle_01 with Upper-Body "
@@ -97,7 +98,17 @@ DEEDS = (
 
 ALONE = Surroundings("alone", "", "")
 IN_CHINESE = "let 走路 = WALK\nIdle_01\n"
+USED = "used-😀.ms"
+USED_TEXT = '# 😀\r\nlet "😀" = greet; let {} = TALK # 走路\u2028\r\n'
 ALONE_DEEDS = (
+    Deed(
+        "rename-used",
+        "rename",
+        f'use "{USED}"\nIdle_01 with Upper-Body gr‸eet\n',
+        "wave",
+        f'use "{USED}"\nIdle_01 with Upper-Body wave\n',
+        beside=USED_TEXT.format("wave").replace("greet", "wave"),
+    ),
     Deed("empty", "diagnose", ""),
     Deed("complete-empty", "complete", "‸", "IDLE", "IDLE"),
     Deed("format-empty", "format", "", after=""),
@@ -160,7 +171,8 @@ class Task:
     def answered(self) -> dict[str, Any]:
         """Return what is to come of it."""
         told = [list(one) for one in self.deed.told]
-        return {"told": told, "said": self.deed.said, "saved": self.after}
+        beside = {} if self.deed.beside is None else {"beside": self.deed.beside}
+        return {"told": told, "said": self.deed.said, "saved": self.after, **beside}
 
 
 def tasks() -> Iterator[Task]:
@@ -180,6 +192,7 @@ def folder(tmp_path: Path, demo_library: Library) -> Path:
     """Return a folder with all texts, and the library that they are read against."""
     for task in tasks():
         (tmp_path / task.file).write_text(task.text.replace("‸", ""), "utf-8", newline="")
+    (tmp_path / USED).write_text(USED_TEXT.format("greet"), "utf-8", newline="")
     (tmp_path / "mlmg.toml").write_text(f'library = "{demo_library.path}"\n', "utf-8")
     (tmp_path / "tasks.json").write_text(json.dumps([task.asked for task in tasks()]), "utf-8")
     return tmp_path
@@ -215,7 +228,12 @@ def _seen(folder: Path, task: Task, answer: Mapping[str, Any]) -> dict[str, Any]
     """Return an answer, with what was saved; of what is shown, only whether it has what it is to have."""
     said, wanted = answer.get("said"), task.deed.said
     shown = {} if wanted is None or wanted not in (said or "") else {"said": wanted}
-    return {"said": None, **answer, **shown, "saved": (folder / task.file).read_bytes().decode("utf-8")}
+    beside = {} if task.deed.beside is None else {"beside": _text_of(folder / USED)}
+    return {"said": None, **answer, **shown, "saved": _text_of(folder / task.file), **beside}
+
+
+def _text_of(path: Path) -> str:
+    return path.read_bytes().decode("utf-8")
 
 
 def needs(*programs: str) -> pytest.MarkDecorator:
