@@ -16,6 +16,7 @@ from mlmg_lang.parsing.nesting import Around, after
 from mlmg_lang.parsing.tokenize import tokenize
 from mlmg_lang.parsing.tokens import Token
 from mlmg_lang.pieces import Piece, read_in
+from mlmg_lang.planning.recalling import Moves
 from mlmg_lang.planning.resolve_again import NOT_PLAYED, Played
 from mlmg_lang.source import Source
 
@@ -231,10 +232,12 @@ class PieceChange:
     ----------
     known : what the pieces have played; of new ones, what could be playing before the first.
     numbers : the pieces that may play something else; where some are gone, the one before them.
+    moves : what commands have done in pieces that are no more.
     """
 
     known: list[Played]
     numbers: list[int]
+    moves: Sequence[Moves]
 
 
 def pieces_changed(before: InPieces, change: Change) -> PieceChange:
@@ -255,7 +258,8 @@ def pieces_changed(before: InPieces, change: Change) -> PieceChange:
         *(range(first, new_end) if fresh else [max(first - 1, 0)]),
         *(new_end + at for at in _others(old[end:], new[new_end:])),
     ]
-    return PieceChange([*before.played[:first], *fresh, *before.played[end:]], numbers)
+    moves = {id(one.moves): one.moves for one in before.played[first:end]}
+    return PieceChange([*before.played[:first], *fresh, *before.played[end:]], numbers, tuple(moves.values()))
 
 
 def _others(old: Sequence[object], new: Sequence[object]) -> Iterator[int]:

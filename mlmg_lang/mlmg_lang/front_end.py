@@ -311,8 +311,8 @@ def _replayed(
     if keys is None:
         return None
     start, wrong = start_of(all_of(made.pieces, "statements"), *library, question.start)
-    player = Player(made.pieces, made.line_of, by_piece(keys, made.pieces), library, made.addressed, start)
-    changed = pieces_changed(before, change)
+    changed, piece_keys = pieces_changed(before, change), by_piece(keys, made.pieces)
+    player = Player(made.pieces, made.line_of, piece_keys, library, made.addressed, start, changed.moves)
     played = player.replay(changed.known, runs(changed.numbers if start == before.start else (0, *changed.numbers)))
     told, hints = (tuple(all_of(played, name)) for name in ("told", "hints"))
     found = replace(found, played=(*wrong, *told), hints=hints)

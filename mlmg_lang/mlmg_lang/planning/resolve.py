@@ -18,6 +18,7 @@ from mlmg_lang.planning import flow, resolved, typed
 from mlmg_lang.planning.chart import START, Step, chart
 from mlmg_lang.planning.move import Move, move
 from mlmg_lang.planning.names import Kind, Names
+from mlmg_lang.planning.recalling import Made, Moves, Recall
 from mlmg_lang.planning.rules.ruling import Narrow, Stopped
 from mlmg_lang.planning.stops import reason
 from mlmg_lang.source import Source, Span
@@ -46,6 +47,7 @@ class Resolution:
     states : what may be playing before each statement that holds no others, by its span.
     reached : by step, what could be playing before it when it was first taken.
     sound : the steps that no later one has ever gone back over: with that alone, all from there comes out the same.
+    moves : what commands have done; see `recalling`.
     joins : the step from which all is as was known already, if there is one; it and later ones have not been taken.
     """
 
@@ -55,6 +57,7 @@ class Resolution:
     states: Mapping[Span, flow.State]
     reached: Sequence[flow.State]
     sound: Sequence[int]
+    moves: Moves
     joins: int | None = None
 
     @property
@@ -111,6 +114,7 @@ def resolve_part(
     before: tuple[str, flow.State],
     keys: Sequence[int],
     known: Mapping[int, flow.State],
+    recall: Recall,
 ) -> Resolution:
     """Return what some statements of a script play, as far as is not known from an earlier time.
 
@@ -119,6 +123,7 @@ def resolve_part(
     before : the motion that the script starts in, and what may be playing before these statements.
     keys : by step, what sorts it among all steps of the script.
     known : by steps that stand in no block, with what before them all from there is as it was.
+    recall : what commands have done earlier.
 
     Raises
     ------
@@ -126,7 +131,7 @@ def resolve_part(
         If what stands before these statements would have to be resolved again, or to be told of.
     """
     start, state = before
-    resolver = _Resolver(*library, chart(statements), source, start, state, keys, known)
+    resolver = _Resolver(*library, chart(statements), source, start, state, keys, known, recall)
     resolver.run()
     return _resolution(statements, resolver, ())
 
@@ -140,7 +145,9 @@ def _resolution(
         for step, state in zip(resolver.steps, resolver.entered, strict=True)
         if step.statement is not None and state is not None
     }
-    return Resolution(playable, wrong, resolver.told, states, resolver.reached, resolver.sound, resolver.joins)
+    return Resolution(
+        playable, wrong, resolver.told, states, resolver.reached, resolver.sound, resolver.recall.made, resolver.joins
+    )
 
 
 def _rebuilt(
@@ -203,6 +210,7 @@ class _Resolver:
     done : by span, what is to be played.
     told : by step, what is wrong with it.
     forbidden : by what set them, the candidates that later commands have ruled out, and why.
+    narrowed : the keys of the steps that later commands have ruled out candidates of, once at least.
     ways : by step, how many of the ways to understand it have failed.
     first_stop : by step, why the first of them has.
 
@@ -219,11 +227,13 @@ class _Resolver:
     begin: flow.State
     keys: Sequence[int]
     known: Mapping[int, flow.State] = field(default_factory=dict)
+    recall: Recall = field(default_factory=Recall)
     entered: list[flow.State | None] = field(default_factory=list)
     left: list[flow.State | None] = field(default_factory=list)
     done: dict[Span, resolved.Statement] = field(default_factory=dict)
     told: dict[int, Diagnostic] = field(default_factory=dict)
     forbidden: dict[flow.Setter, dict[str, str]] = field(default_factory=dict)
+    narrowed: set[int] = field(default_factory=set)
     ways: dict[int, int] = field(default_factory=dict)
     first_stop: dict[int, Stopped] = field(default_factory=dict)
     trial: _Trial | None = None
@@ -259,6 +269,10 @@ class _Resolver:
         could bring about less, again and again without end.
         """
         step = self.steps[number]
+        if len(step.before) == 1 and step.statement is not None:
+            state = self.begin if step.before[0] == START else self.left[step.before[0]]
+            if state is not None:
+                return state
         known = [self.begin if n == START else self.left[n] for n in step.before]
         if step.statement is None:
             known.append(self.entered[number])
@@ -318,11 +332,19 @@ class _Resolver:
     def _command(self, number: int, command: typed.Command, state: flow.State) -> flow.State | int:
         if number in self.told:
             return flow.unknown(self.names)
+        is_free = number not in self.ways and self.keys[number] not in self.narrowed
+        known = self.recall.of(self.keys[number], command, state) if is_free else None
+        if known is not None:
+            self._accept(number, command, known.played)
+            return known.after
         way = command.ways[self.ways.get(number, 0)]
         forbidden = {layer.graph: self.forbidden.get((self.keys[number], layer.graph), {}) for layer in way.layers}
         outcome = move(way.layers, state, self.keys[number], forbidden, (self.names, self.catalog), command.once)
         if isinstance(outcome, Move):
-            self._accept(number, command, way, outcome)
+            played = _played(command, way, outcome)
+            if is_free:
+                self.recall.keep(self.keys[number], Made(command, state, played, outcome.after))
+            self._accept(number, command, played)
             return outcome.after
         if isinstance(outcome, Narrow):
             return self._narrow(number, command, way, outcome)
@@ -330,13 +352,8 @@ class _Resolver:
             return self._take_back(self.trial)
         return self._refuse(number, command, outcome)
 
-    def _accept(self, number: int, command: typed.Command, way: typed.Layering, made: Move) -> None:
-        spans = {layer.graph: layer.span for layer in way.layers}
-        layers = tuple(
-            resolved.Layer(graph, candidates, spans[graph], made.left_out[graph])
-            for graph, candidates in made.candidates.items()
-        )
-        self.done[command.span] = resolved.Command(layers, _duration(command), command.span)
+    def _accept(self, number: int, command: typed.Command, played: resolved.Command) -> None:
+        self.done[command.span] = played
         if self.trial is not None:
             self.trial.pending.discard(number)
             if not self.trial.pending:
@@ -360,6 +377,7 @@ class _Resolver:
         self.trial.pending |= {self._number(setter) for setter in narrow.without}
         for setter, motions in narrow.without.items():
             here = self.forbidden.setdefault(setter, {})
+            self.narrowed.add(setter[0])
             for motion in sorted(motions - here.keys()):
                 here[motion] = because
                 self.trial.forbidden.append((setter, motion))
@@ -428,6 +446,15 @@ class _Resolver:
         statement = self.steps[number].statement
         assert statement is not None, "nothing is set where a loop begins"
         return statement.span
+
+
+def _played(command: typed.Command, way: typed.Layering, made: Move) -> resolved.Command:
+    spans = {layer.graph: layer.span for layer in way.layers}
+    layers = tuple(
+        resolved.Layer(graph, candidates, spans[graph], made.left_out[graph])
+        for graph, candidates in made.candidates.items()
+    )
+    return resolved.Command(layers, _duration(command), command.span)
 
 
 def _duration(command: typed.Command) -> resolved.Duration | None:

@@ -21,6 +21,7 @@ from mlmg_lang.planning import flow, resolved
 from mlmg_lang.planning.chart import chart
 from mlmg_lang.planning.names import Names
 from mlmg_lang.planning.passing import left_at_once
+from mlmg_lang.planning.recalling import Moves, Recall
 from mlmg_lang.planning.resolve import GAP, ReachesBack, Resolution, resolve_part
 from mlmg_lang.planning.unusual import unusual
 from mlmg_lang.source import Source, Span
@@ -41,6 +42,7 @@ class Played:
     before : what could be playing before its first step when that was first taken; None if no step comes any more.
     sound : whether with that alone, all from there comes out the same.
     states : what may be playing before each of its statements that holds no others; others may be with them.
+    moves : what its commands have done; those of others may be with them.
     told : what is wrong with that. hints : what could be better.
     """
 
@@ -49,11 +51,12 @@ class Played:
     before: flow.State | None
     sound: bool
     states: Mapping[Span, flow.State]
+    moves: Moves
     told: tuple[Diagnostic, ...]
     hints: tuple[Diagnostic, ...]
 
 
-NOT_PLAYED = Played((), 1, None, False, {}, (), ())
+NOT_PLAYED = Played((), 1, None, False, {}, {}, (), ())
 """In place of what is not known yet."""
 
 
@@ -121,7 +124,7 @@ def played_of(
         before = reached[number] if number < len(reached) else None
         steps = range(number, number + len(own))
         told = tuple(resolution.told[step] for step in steps if step in resolution.told)
-        played.append(Played(statements, line, before, number in sound, resolution.states, told, ()))
+        played.append(Played(statements, line, before, number in sound, resolution.states, resolution.moves, told, ()))
         number = steps.stop
     return played
 
@@ -134,6 +137,7 @@ class Player:
     ----------
     line_of : the line on which a piece begins. keys : of the steps of each.
     start : the motion that the script starts in.
+    earlier : what commands have done in pieces that are no more.
     """
 
     pieces: Sequence[Piece | WholeBlock]
@@ -142,6 +146,7 @@ class Player:
     library: tuple[Names, Catalog]
     source: Source
     start: str
+    earlier: Sequence[Moves] = ()
 
     def replay(self, known: Sequence[Played], changed: Iterable[range]) -> list[Played]:
         """Return what all pieces play.
@@ -191,7 +196,9 @@ class Player:
         state = flow.begin(self.library[0], self.start) if before is None else before
         statements = [one for piece in pieces for one in piece.statements]
         steps = [key for keys in own for key in keys]
-        resolution = resolve_part(statements, self.library, self.source, (self.start, state), steps, states)
+        moves = {id(one.moves): one.moves for one in known[part.start : part.stop]}
+        recall = Recall((*self.earlier, *moves.values()))
+        resolution = resolve_part(statements, self.library, self.source, (self.start, state), steps, states, recall)
         return resolution, part.stop if resolution.joins is None else joined_at[resolution.joins]
 
     def hinted(self, played: Sequence[Played], parts: Iterable[range]) -> list[Played]:
@@ -210,7 +217,7 @@ class Player:
         following = next((statements[0] for statements in later if statements), None)
         beside = (*own, following) if isinstance(following, resolved.Command) else own
         alone, around = (
-            Resolution(resolved.ResolvedPlan(self.source, self.start, part), (), {}, states, (), ())
+            Resolution(resolved.ResolvedPlan(self.source, self.start, part), (), {}, states, (), (), {})
             for part in (own, beside)
         )
         names, catalog = self.library
