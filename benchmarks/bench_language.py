@@ -121,7 +121,8 @@ def defining(n_lines: int) -> str:
 
 def editing(library: Library) -> list[Row]:
     """Measure what an editor waits for after one character has been typed somewhere in a script."""
-    text, with_lets = script(N_EDITED_LINES), defining(N_EDITED_LINES)
+    text, with_lets, short = script(N_EDITED_LINES), defining(N_EDITED_LINES), script(1_000)
+    block = f"repeat 2 {{\n{short}}}\n"
     cases = (
         ("again after an edit", text, None, 0.010),
         ("the same, with definitions", with_lets, None, 0.010),
@@ -129,7 +130,10 @@ def editing(library: Library) -> list[Row]:
         ("the first motion", text, ("WALK for 1.0", "Walk_01 for 1.0"), 0.010),
         ("a definition that five lines use", with_lets, ("not WALK", "not TALK"), None),
         ("a definition that a thousand lines use", with_lets, ("WALK or IDLE", "WALK or TALK"), None),
-        ("in a block of 1,000 lines", f"repeat 2 {{\n{script(1_000)}}}\n", None, None),
+        ("in a block of 1,000 lines", block, None, 0.050),
+        ("in a block of 10,000 lines", f"repeat 2 {{\n{text}}}\n", None, 0.200),
+        ("behind a brace that is open above 1,000 lines", block.removesuffix("}\n"), None, 0.050),
+        ("such a brace typed", short, (short, f"repeat 2 {{\n{short}"), 0.050),
     )
     return [Row(label, _again_s(text, edit, library), limit) for label, text, edit, limit in cases]
 

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from mlmg_lang.planning import resolved
     from mlmg_lang.planning.flow import State
     from mlmg_lang.planning.names import Names
-    from mlmg_lang.planning.resolve import Resolution
+    from mlmg_lang.planning.resolution import Resolution
     from mlmg_lang.planning.resolve_again import Played
     from mlmg_lang.planning.resolved import ResolvedPlan
     from mlmg_lang.planning.typed import TypedPlan
@@ -131,6 +131,8 @@ class InPieces:
     def grouped(self, known: Iterable[Piece | WholeBlock]) -> InPieces:
         """Return it with the blocks that lie across its lines; some may be `known` from an earlier text."""
         pieces, taken = grouped(self.lines, known, self.room)
+        if pieces is self.lines is self.places.lines:
+            return replace(self, pieces=pieces)
         places = places_of(self.lines, pieces, self.places.files)
         return replace(self, pieces=pieces, places=places, room=self.room + taken)
 

@@ -9,6 +9,7 @@ from itertools import accumulate, chain, compress
 from operator import attrgetter, is_not
 
 from mlmg_lang.analysis import InPieces
+from mlmg_lang.blocks import Statement
 from mlmg_lang.definitions.expand import names_in
 from mlmg_lang.definitions.gather import Definitions
 from mlmg_lang.parsing.cutting import Balance, balance, cut
@@ -81,11 +82,10 @@ def reread(before: InPieces, source: Source, edit: Edit) -> Spot:
     return Spot(spot, tokens, first, end, kept)
 
 
-def around_line(lines: Sequence[Piece], number: int) -> Around:
-    """Return the braces around a line."""
-    before = lines[:number]
-    marks = chain.from_iterable(line.marks for line in compress(before, map(attrgetter("marks"), before)))
-    return after((), marks)
+def braces_after(around: Around, lines: Sequence[Piece]) -> Around:
+    """Return the braces around what comes after some lines; `around` are those around the first."""
+    marks = compress(map(attrgetter("marks"), lines), map(attrgetter("marks"), lines))
+    return after(around, chain.from_iterable(marks))
 
 
 class TooDeep(Exception):
@@ -243,12 +243,9 @@ class PieceChange:
 def pieces_changed(before: InPieces, change: Change) -> PieceChange:
     """Return which pieces an edit has changed."""
     old, new = before.pieces, change.made.pieces
-    old_ends, new_ends = (list(accumulate(map(attrgetter("n_lines"), one), initial=0)) for one in (old, new))
+    old_ends, new_ends = _ends(old, before.lines), _ends(new, change.made.lines)
     first = bisect_right(old_ends, change.first) - 1
-    further = change.first + change.n_new - change.end
-    bounds = {line: at for at, line in enumerate(new_ends)}
-    end = next(at for at in range(bisect_left(old_ends, change.end), len(old_ends)) if old_ends[at] + further in bounds)
-    new_end = bounds[old_ends[end] + further]
+    end, new_end = _same_end(old_ends, new_ends, change)
     fresh = [NOT_PLAYED] * (new_end - first)
     if fresh and first < len(before.played):
         once = before.played[first]
@@ -260,6 +257,23 @@ def pieces_changed(before: InPieces, change: Change) -> PieceChange:
     ]
     moves = {id(one.moves): one.moves for one in before.played[first:end]}
     return PieceChange([*before.played[:first], *fresh, *before.played[end:]], numbers, tuple(moves.values()))
+
+
+def _ends(pieces: Sequence[Statement], lines: Sequence[Piece]) -> Sequence[int]:
+    """Return how many lines come before each piece, and all of them."""
+    if len(pieces) == len(lines):
+        return range(len(lines) + 1)
+    return list(accumulate(map(attrgetter("n_lines"), pieces), initial=0))
+
+
+def _same_end(old: Sequence[int], new: Sequence[int], change: Change) -> tuple[int, int]:
+    """Return behind which pieces, of those before and after an edit, the same come: at the latest behind all."""
+    further = change.first + change.n_new - change.end
+    for at in range(bisect_left(old, change.end), len(old)):
+        number = bisect_left(new, old[at] + further)
+        if number < len(new) and new[number] == old[at] + further:
+            return at, number
+    raise ValueError("a script ends where its last piece does")
 
 
 def _others(old: Sequence[object], new: Sequence[object]) -> Iterator[int]:

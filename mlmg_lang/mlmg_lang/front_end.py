@@ -15,6 +15,7 @@ from mlmg_lang.definitions.gather import Files, Gathered, NoFiles, gather, gathe
 from mlmg_lang.diagnostics import Diagnostic
 from mlmg_lang.parsing.case import guess_case
 from mlmg_lang.parsing.lookalikes import opens_or_closes
+from mlmg_lang.parsing.nesting import Around
 from mlmg_lang.parsing.parse import read_marks
 from mlmg_lang.parsing.structure import check_definition, check_structure, misplaced
 from mlmg_lang.parsing.syntax import Item, Let, Script, Use
@@ -232,34 +233,42 @@ def _read_again(before: InPieces, source: Source) -> Change | None:
 
     The same goes for signs that make comments of whatever stands between them, and for braces in too many others.
     """
-    from mlmg_lang.editing import Change, around_line, edit_between, reread
+    from mlmg_lang.editing import Change, braces_after, edit_between, reread
 
     spot = reread(before, source, edit_between(before.source.text, source.text))
-    around, size = around_line(before.lines, spot.first), len(spot.source.text)
+    around, size = braces_after((), before.lines[: spot.first]), len(spot.source.text)
     read = read_marks(spot.source, spot.tokens, around)
     if opens_or_closes(spot.tokens) or read.deep:
         return None
     new = lines_of(size, spot.tokens, read, around, before.room)[int(spot.kept) :]
     first = spot.first + spot.kept
     made = before.with_lines(source, [*before.lines[:first], *new, *before.lines[spot.end :]], size)
-    return _defined_again(before, _braced_again(Change(made, first, len(new), spot.end, (), frozenset(), ())))
+    change = Change(made, first, len(new), spot.end, (), frozenset(), ())
+    around = braces_after(around, before.lines[spot.first : first])
+    return _defined_again(before, _braced_again(before, change, around) if change.moves_braces(before) else change)
 
 
-def _braced_again(change: Change) -> Change | None:
-    """Return a change with what it makes of the lines behind it; None where they stand in too many braces."""
-    from mlmg_lang.editing import TooDeep, around_line, in_other_braces
+def _braced_again(before: InPieces, change: Change, around: Around) -> Change | None:
+    """Return a change with what it makes of the lines behind it; None where they stand in too many braces.
+
+    Parameters
+    ----------
+    around : the braces around its first line.
+    """
+    from mlmg_lang.editing import TooDeep, braces_after, in_other_braces
 
     made, behind = change.made, change.first + change.n_new
+    now = braces_after(around, made.lines[change.first : behind])
+    if now == braces_after(around, before.lines[change.first : change.end]):
+        return change
     starts, lines = made.places.starts, list(made.lines)
-    around = around_line(lines, behind)
     try:
-        found = list(in_other_braces(lines, behind, around, lambda at: made.source.text[starts[at] : starts[at + 1]]))
+        found = list(in_other_braces(lines, behind, now, lambda at: made.source.text[starts[at] : starts[at + 1]]))
     except TooDeep:
         return None
     for at, line in found:
         lines[at] = line
-    if found:
-        made = replace(made, lines=lines, pieces=lines, places=replace(made.places, pieces=lines, lines=lines))
+    made = replace(made, lines=lines, pieces=lines, places=replace(made.places, pieces=lines, lines=lines))
     return replace(change, made=made, again=[at for at, _ in found])
 
 
@@ -271,6 +280,8 @@ def _defined_again(before: InPieces, change: Change | None) -> Change | None:
         return None
     lines = change.made.lines
     defining = [item for line in change.touching(before) for item in line.defining]
+    if not defining and not change.moves_braces(before):
+        return change
     items = _defining(lines, lines)
     if any(isinstance(item, Use) for item in (*defining, *(items.items if change.moves_braces(before) else ()))):
         return None

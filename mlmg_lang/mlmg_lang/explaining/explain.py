@@ -22,7 +22,8 @@ from mlmg_lang.planning.estimate import NO_TIME, Estimate
 from mlmg_lang.planning.forecast import Forecast, Outcome, Passage, chances_of, forecast
 from mlmg_lang.planning.move import move
 from mlmg_lang.planning.names import Names
-from mlmg_lang.planning.resolve import Resolution, resolve
+from mlmg_lang.planning.resolution import Resolution
+from mlmg_lang.planning.resolve import resolve
 from mlmg_lang.planning.rules.ruling import Stopped
 from mlmg_lang.source import Span
 from mlmg_lang.spelling import normal, some

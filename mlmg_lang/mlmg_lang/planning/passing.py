@@ -11,7 +11,7 @@ from itertools import pairwise
 from mlmg_lang.diagnostics import Diagnostic, Fix
 from mlmg_lang.planning.flow import State
 from mlmg_lang.planning.names import Names
-from mlmg_lang.planning.resolve import Resolution
+from mlmg_lang.planning.resolution import Resolution
 from mlmg_lang.planning.resolved import Command, Layer, Statement
 from mlmg_lang.source import Span
 

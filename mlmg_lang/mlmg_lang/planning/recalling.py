@@ -42,13 +42,13 @@ class Recall:
 
     def of(self, key: int, command: typed.Command, state: State) -> Made | None:
         """Return what a command has done with this before it, if it ever has."""
-        here = self.made.get(key, ())
-        one = _found(here, command, state)
-        if one is None:
-            one = next((one for moves in self.known if (one := _found(moves.get(key, ()), command, state))), None)
+        for moves in (self.made, *self.known):
+            one = _found(moves.get(key, ()), command, state)
             if one is not None:
-                self.keep(key, one)
-        return one
+                if moves is not self.made:
+                    self.keep(key, one)
+                return one
+        return None
 
     def keep(self, key: int, made: Made) -> None:
         """Keep what a command has done."""
@@ -60,4 +60,7 @@ def _found(moves: Sequence[Made], command: typed.Command, state: State) -> Made 
     for one in moves:
         if one.before is state and one.command is command:
             return one
-    return next((one for one in moves if one.command is command and one.before == state), None)
+    for one in moves:
+        if one.command is command and one.before == state:
+            return one
+    return None

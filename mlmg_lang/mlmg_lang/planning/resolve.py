@@ -15,12 +15,15 @@ from mlmg_lang.catalog import Catalog
 from mlmg_lang.definitions.expand import told_from
 from mlmg_lang.diagnostics import Diagnostic, Fix, Note
 from mlmg_lang.planning import flow, resolved, typed
-from mlmg_lang.planning.chart import START, Step, chart
+from mlmg_lang.planning.chart import chart
 from mlmg_lang.planning.move import Move, move
 from mlmg_lang.planning.names import Kind, Names
-from mlmg_lang.planning.recalling import Made, Moves, Recall
+from mlmg_lang.planning.narrowing import Narrowings, Trial
+from mlmg_lang.planning.recalling import Made, Recall
+from mlmg_lang.planning.resolution import Resolution
 from mlmg_lang.planning.rules.ruling import Narrow, Stopped
 from mlmg_lang.planning.stops import reason
+from mlmg_lang.planning.walking import Walk
 from mlmg_lang.source import Source, Span
 from mlmg_lang.spelling import listed, nearest
 
@@ -35,52 +38,6 @@ class ReachesBack(Exception):
         """Say the key of the one that is needed."""
         super().__init__(key)
         self.key = key
-
-
-@dataclass(frozen=True, slots=True)
-class Resolution:
-    """A resolved plan with what is wrong with the script as it would be played.
-
-    Attributes
-    ----------
-    wrong : what is wrong with the start. told : by step, what is wrong with it.
-    states : what may be playing before each statement that holds no others, by its span.
-    reached : by step, what could be playing before it when it was first taken.
-    sound : the steps that no later one has ever gone back over: with that alone, all from there comes out the same.
-    moves : what commands have done; see `recalling`.
-    joins : the step from which all is as was known already, if there is one; it and later ones have not been taken.
-    """
-
-    plan: resolved.ResolvedPlan
-    wrong: tuple[Diagnostic, ...]
-    told: Mapping[int, Diagnostic]
-    states: Mapping[Span, flow.State]
-    reached: Sequence[flow.State]
-    sound: Sequence[int]
-    moves: Moves
-    joins: int | None = None
-
-    @property
-    def diagnostics(self) -> tuple[Diagnostic, ...]:
-        """Return all that is wrong, in the order of the text."""
-        return (*self.wrong, *(self.told[step] for step in sorted(self.told)))
-
-    @property
-    def bodies(self) -> Iterator[tuple[resolved.Statement, ...]]:
-        """Yield the script's statements, then those of each `repeat` and of each branch."""
-        bodies = [self.plan.statements]
-        for body in bodies:
-            for statement in body:
-                if isinstance(statement, resolved.Repeat):
-                    bodies.append(statement.body)
-                elif isinstance(statement, resolved.Choose):
-                    bodies += [branch.body for branch in statement.branches]
-            yield body
-
-    @property
-    def commands(self) -> Iterator[resolved.Command]:
-        """Yield all commands of the script."""
-        return (one for body in self.bodies for one in body if isinstance(one, resolved.Command))
 
 
 def resolve(
@@ -101,7 +58,8 @@ def resolve(
     motion, wrong = start_of(plan.statements, names, catalog, start)
     n_steps = len(steps := chart(plan.statements))
     keys = range(GAP, (n_steps + 1) * GAP, GAP)
-    resolver = _Resolver(names, catalog, steps, source, motion, state or flow.begin(names, motion), keys)
+    walk = Walk(names, steps, state or flow.begin(names, motion))
+    resolver = _Resolver((names, catalog), walk, source, motion, keys)
     resolver.has_begun = state is not None
     resolver.run()
     return _resolution(plan.statements, resolver, wrong)
@@ -131,7 +89,8 @@ def resolve_part(
         If what stands before these statements would have to be resolved again, or to be told of.
     """
     start, state = before
-    resolver = _Resolver(*library, chart(statements), source, start, state, keys, known, recall)
+    walk = Walk(library[0], chart(statements), state)
+    resolver = _Resolver(library, walk, source, start, keys, known, recall)
     resolver.run()
     return _resolution(statements, resolver, ())
 
@@ -139,15 +98,15 @@ def resolve_part(
 def _resolution(
     statements: Sequence[typed.Statement], resolver: _Resolver, wrong: tuple[Diagnostic, ...]
 ) -> Resolution:
+    walk = resolver.walk
     playable = resolved.ResolvedPlan(resolver.source, resolver.start, _rebuilt(statements, resolver.done))
     states = {
         step.statement.span: state
-        for step, state in zip(resolver.steps, resolver.entered, strict=True)
+        for step, state in zip(walk.steps, walk.entered, strict=True)
         if step.statement is not None and state is not None
     }
-    return Resolution(
-        playable, wrong, resolver.told, states, resolver.reached, resolver.sound, resolver.recall.made, resolver.joins
-    )
+    told, moves = resolver.told, resolver.recall.made
+    return Resolution(playable, wrong, told, states, walk.reached, walk.sound, moves, resolver.joins)
 
 
 def _rebuilt(
@@ -186,103 +145,60 @@ def start_of(
 
 
 @dataclass(slots=True)
-class _Trial:
-    """A narrowing of earlier commands for the sake of step `number`, which can be taken back.
-
-    Attributes
-    ----------
-    pending : the steps that have not shown yet that they can go on with it.
-    """
-
-    number: int
-    stopped: Stopped
-    pending: set[int]
-    forbidden: list[tuple[flow.Setter, str]] = field(default_factory=list)
-
-
-@dataclass(slots=True)
 class _Resolver:
-    """Goes through the steps; where a loop begins, again and again, until nothing new can be playing there.
+    """Takes the steps of a script, and finds out what each does and what is wrong with it.
 
     Attributes
     ----------
-    entered, left : by step, what may be playing before and after it; None if it has not been reached.
     done : by span, what is to be played.
     told : by step, what is wrong with it.
-    forbidden : by what set them, the candidates that later commands have ruled out, and why.
-    narrowed : the keys of the steps that later commands have ruled out candidates of, once at least.
     ways : by step, how many of the ways to understand it have failed.
     first_stop : by step, why the first of them has.
-
     has_begun : whether something has been played before the first step.
 
-    For `keys`, `known`, `reached`, `sound` and `joins` see `resolve_part` and `Resolution`.
+    For `keys`, `known`, `recall` and `joins` see `resolve_part` and `Resolution`.
     """
 
-    names: Names
-    catalog: Catalog
-    steps: list[Step]
+    library: tuple[Names, Catalog]
+    walk: Walk
     source: Source
     start: str
-    begin: flow.State
     keys: Sequence[int]
     known: Mapping[int, flow.State] = field(default_factory=dict)
     recall: Recall = field(default_factory=Recall)
-    entered: list[flow.State | None] = field(default_factory=list)
-    left: list[flow.State | None] = field(default_factory=list)
+    narrowings: Narrowings = field(default_factory=Narrowings)
     done: dict[Span, resolved.Statement] = field(default_factory=dict)
     told: dict[int, Diagnostic] = field(default_factory=dict)
-    forbidden: dict[flow.Setter, dict[str, str]] = field(default_factory=dict)
-    narrowed: set[int] = field(default_factory=set)
     ways: dict[int, int] = field(default_factory=dict)
     first_stop: dict[int, Stopped] = field(default_factory=dict)
-    trial: _Trial | None = None
-    reached: list[flow.State] = field(default_factory=list)
-    sound: list[int] = field(default_factory=list)
     joins: int | None = None
     has_begun: bool = False
 
+    @property
+    def names(self) -> Names:
+        return self.library[0]
+
     def run(self) -> None:
-        self.entered = [None] * len(self.steps)
-        self.left = [None] * len(self.steps)
-        number = 0
-        while number < len(self.steps):
-            self.entered[number] = state = self._before(number)
-            if number == len(self.reached) and self._joins_known(number, state):
-                self.entered[number] = None
+        walk, number = self.walk, 0
+        while number < len(walk.steps):
+            state = walk.enter(number)
+            if number == len(walk.reached) and self._joins_known(number, state):
+                walk.entered[number] = None
                 self.joins = number
                 return
-            number = self._step(number)
+            number = self._step(number, state)
 
     def _joins_known(self, number: int, state: flow.State) -> bool:
         """Note that a step is taken for the first time; return whether all from there is known."""
-        self.reached.append(state)
-        if self.trial is not None:
+        self.walk.reached.append(state)
+        if self.narrowings.trial is not None:
             return False
-        self.sound.append(number)
+        self.walk.sound.append(number)
         return number in self.known and self.known[number] == state
 
-    def _before(self, number: int) -> flow.State:
-        """Return what may be playing before a step, as far as what comes before it has been reached.
-
-        Where a loop begins it only ever becomes more: a command that has to be ready for more can do less, and so
-        could bring about less, again and again without end.
-        """
-        step = self.steps[number]
-        if len(step.before) == 1 and step.statement is not None:
-            state = self.begin if step.before[0] == START else self.left[step.before[0]]
-            if state is not None:
-                return state
-        known = [self.begin if n == START else self.left[n] for n in step.before]
-        if step.statement is None:
-            known.append(self.entered[number])
-        return flow.joined([state for state in known if state is not None], self.names)
-
-    def _step(self, number: int) -> int:
+    def _step(self, number: int, state: flow.State) -> int:
         """Take a step; return the number of the one to take next, which may be an earlier one."""
-        state = self.entered[number]
-        assert state is not None
-        statement = self.steps[number].statement
+        statement = self.walk.steps[number].statement
         after: flow.State | int
         match statement:
             case None:
@@ -295,31 +211,7 @@ class _Resolver:
                 after = self._end(number, statement, state)
             case _:
                 after = flow.unknown(self.names)
-        if isinstance(after, int):
-            return after
-        self.left[number] = after
-        return self._next(number)
-
-    def _next(self, number: int) -> int:
-        """Return the next step: where a loop begins, if what may be playing there has become more."""
-        heads = self.steps[number].again
-        return next((head for head in heads if self._before(head) != self.entered[head]), number + 1)
-
-    def _back_to(self, number: int) -> int:
-        """Return the step to begin again with when one has to be taken otherwise, and forget all from there.
-
-        That is the step itself, unless a loop around it has come round already: then it is where the outermost begins.
-        """
-        reached = [step for step in range(number, len(self.reached)) if self.left[step] is not None]
-        came_round = any(head < number for step in reached for head in self.steps[step].again)
-        first = self.steps[number].outermost if came_round else number
-        while self.sound and self.sound[-1] > first:
-            self.sound.pop()
-        for later in range(first, len(self.steps)):
-            if self.entered[later] is None:
-                break
-            self.entered[later] = self.left[later] = None
-        return first
+        return after if isinstance(after, int) else self.walk.leave(number, after)
 
     def _number(self, setter: flow.Setter) -> int:
         """Return the number of the step that has set something."""
@@ -332,32 +224,28 @@ class _Resolver:
     def _command(self, number: int, command: typed.Command, state: flow.State) -> flow.State | int:
         if number in self.told:
             return flow.unknown(self.names)
-        is_free = number not in self.ways and self.keys[number] not in self.narrowed
-        known = self.recall.of(self.keys[number], command, state) if is_free else None
-        if known is not None:
-            self._accept(number, command, known.played)
-            return known.after
+        key = self.keys[number]
+        is_free = number not in self.ways and key not in self.narrowings.narrowed
+        made = self.recall.of(key, command, state) if is_free else None
+        if made is not None:
+            return self._accept(number, made)
         way = command.ways[self.ways.get(number, 0)]
-        forbidden = {layer.graph: self.forbidden.get((self.keys[number], layer.graph), {}) for layer in way.layers}
-        outcome = move(way.layers, state, self.keys[number], forbidden, (self.names, self.catalog), command.once)
-        if isinstance(outcome, Move):
-            played = _played(command, way, outcome)
-            if is_free:
-                self.recall.keep(self.keys[number], Made(command, state, played, outcome.after))
-            self._accept(number, command, played)
-            return outcome.after
+        ruled_out = self.narrowings.of(key, (layer.graph for layer in way.layers))
+        outcome = move(way.layers, state, key, ruled_out, self.library, command.once)
         if isinstance(outcome, Narrow):
             return self._narrow(number, command, way, outcome)
-        if self.trial is not None:
-            return self._take_back(self.trial)
-        return self._refuse(number, command, outcome)
+        if not isinstance(outcome, Move):
+            trial = self.narrowings.trial
+            return self._refuse(number, command, outcome) if trial is None else self._take_back(trial)
+        made = Made(command, state, _played(command, way, outcome), outcome.after)
+        if is_free:
+            self.recall.keep(key, made)
+        return self._accept(number, made)
 
-    def _accept(self, number: int, command: typed.Command, played: resolved.Command) -> None:
-        self.done[command.span] = played
-        if self.trial is not None:
-            self.trial.pending.discard(number)
-            if not self.trial.pending:
-                self.trial = None
+    def _accept(self, number: int, made: Made) -> flow.State:
+        self.done[made.command.span] = made.played
+        self.narrowings.went_on(number)
+        return made.after
 
     def _refuse(self, number: int, command: typed.Command, stopped: Stopped) -> int:
         """Try the next way to understand a command; if there is none, say why the first cannot be obeyed."""
@@ -366,22 +254,15 @@ class _Resolver:
         if self.ways[number] == len(command.ways):
             self.told[number] = told_from(self._reason(command, first), command.span)
             self.done.pop(command.span, None)
-        return self._back_to(number)
+        return self.walk.back_to(number)
 
     def _narrow(self, number: int, command: typed.Command, way: typed.Layering, narrow: Narrow) -> int:
         """Take candidates away from earlier commands, and go back to the first of them."""
-        if self.trial is None:
-            self.trial = _Trial(number, self._as_stop(way, narrow), {number})
         line, _ = self.source.position(command.span.start)
         because = f"what line {line} asks of `{narrow.graph}` cannot begin in it"
-        self.trial.pending |= {self._number(setter) for setter in narrow.without}
-        for setter, motions in narrow.without.items():
-            here = self.forbidden.setdefault(setter, {})
-            self.narrowed.add(setter[0])
-            for motion in sorted(motions - here.keys()):
-                here[motion] = because
-                self.trial.forbidden.append((setter, motion))
-        return self._back_to(self._number(min(narrow.without)))
+        setters = {self._number(setter) for setter in narrow.without}
+        self.narrowings.narrow(number, self._as_stop(way, narrow), narrow, setters, because)
+        return self.walk.back_to(min(setters))
 
     def _as_stop(self, way: typed.Layering, narrow: Narrow) -> Stopped:
         """Return what stops a command if the earlier ones cannot be narrowed for it."""
@@ -391,16 +272,13 @@ class _Resolver:
         by_rule_1 = not any(motion in self.names.motion_set(narrow.graph) for motion in motions)
         return Stopped(narrow.graph, layer.span, layer.motions, setter[1], motions, by_rule_1, setter, within=False)
 
-    def _take_back(self, trial: _Trial) -> int:
+    def _take_back(self, trial: Trial) -> int:
         """Undo a narrowing that leaves nothing to an earlier command: the later one is refused."""
-        self.trial = None
-        first = trial.number
-        for setter, motion in trial.forbidden:
-            del self.forbidden[setter][motion]
-            first = min(first, self._number(setter))
-        command = self.steps[trial.number].statement
+        self.narrowings.take_back(trial)
+        first = min((trial.number, *(self._number(setter) for setter, _ in trial.forbidden)))
+        command = self.walk.steps[trial.number].statement
         assert isinstance(command, typed.Command)
-        return min(self._refuse(trial.number, command, trial.stopped), self._back_to(first))
+        return min(self._refuse(trial.number, command, trial.stopped), self.walk.back_to(first))
 
     # --- other statements ---
 
@@ -431,8 +309,8 @@ class _Resolver:
 
     def _reason(self, command: typed.Command, stopped: Stopped) -> Diagnostic:
         """Say why a command cannot be obeyed."""
-        above = command if stopped.setter is None else self.steps[self._number(stopped.setter)].statement
-        return reason(stopped, above, tuple(self._origin(stopped)), self.names, self.catalog)
+        above = command if stopped.setter is None else self.walk.steps[self._number(stopped.setter)].statement
+        return reason(stopped, above, tuple(self._origin(stopped)), *self.library)
 
     def _origin(self, stopped: Stopped) -> Iterator[Note]:
         """Yield where the motions come from that stand in the way, if it is not this command itself."""
@@ -443,7 +321,7 @@ class _Resolver:
             yield Note(f"it plays {playing} now" if self.has_begun else f"the character starts in `{self.start}`")
 
     def _span(self, number: int) -> Span:
-        statement = self.steps[number].statement
+        statement = self.walk.steps[number].statement
         assert statement is not None, "nothing is set where a loop begins"
         return statement.span
 

@@ -22,7 +22,8 @@ from mlmg_lang.planning.chart import chart
 from mlmg_lang.planning.names import Names
 from mlmg_lang.planning.passing import left_at_once
 from mlmg_lang.planning.recalling import Moves, Recall
-from mlmg_lang.planning.resolve import GAP, ReachesBack, Resolution, resolve_part
+from mlmg_lang.planning.resolution import Resolution
+from mlmg_lang.planning.resolve import GAP, ReachesBack, resolve_part
 from mlmg_lang.planning.unusual import unusual
 from mlmg_lang.source import Source, Span
 

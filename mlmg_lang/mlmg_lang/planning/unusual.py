@@ -11,7 +11,7 @@ from math import inf
 from mlmg_lang.catalog import Catalog
 from mlmg_lang.diagnostics import Diagnostic
 from mlmg_lang.planning.names import Names
-from mlmg_lang.planning.resolve import Resolution
+from mlmg_lang.planning.resolution import Resolution
 from mlmg_lang.planning.resolved import Command, Layer
 from mlmg_lang.spelling import listed, some
 

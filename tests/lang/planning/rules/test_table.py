@@ -13,7 +13,8 @@ import pytest
 from mlmg_lang.front_end import analyse
 from mlmg_lang.planning import rules
 from mlmg_lang.planning.names import Names
-from mlmg_lang.planning.resolve import Resolution, resolve
+from mlmg_lang.planning.resolution import Resolution
+from mlmg_lang.planning.resolve import resolve
 from mlmg_lang.planning.rules.table import RULES, Rule
 from mlmg_lang.rendering import render_full
 from mlmg_lang.source import Source
