@@ -1,7 +1,18 @@
 // One `mlmg lsp` for the window: found, started, watched, and asked to execute commands.
 import * as vscode from "vscode";
-import { LanguageClient, RevealOutputChannelOn, type ShowDocumentParams, State } from "vscode-languageclient/node";
+import {
+  CloseAction,
+  type CloseHandlerResult,
+  ErrorAction,
+  type ErrorHandler,
+  type ErrorHandlerResult,
+  LanguageClient,
+  RevealOutputChannelOn,
+  type ShowDocumentParams,
+  State,
+} from "vscode-languageclient/node";
 
+import { Endings } from "./endings";
 import { type Machine, locate } from "./programs";
 import { LANGUAGE, type Settings, settings } from "./settings";
 
@@ -20,6 +31,21 @@ class Client extends LanguageClient {
     if (shown === "force") {
       this.failed(message);
     }
+  }
+}
+
+/** Starts again a server that has ended, unless it ends too often. What cannot be written to it, it has ended already. */
+class Again implements ErrorHandler {
+  private readonly endings = new Endings();
+
+  error(): ErrorHandlerResult {
+    return { action: ErrorAction.Continue, handled: true };
+  }
+
+  closed(): CloseHandlerResult {
+    return this.endings.isTooMuch(Date.now())
+      ? { action: CloseAction.DoNotRestart, message: "it has ended again and again." }
+      : { action: CloseAction.Restart, handled: true };
   }
 }
 
@@ -110,6 +136,7 @@ export class Server {
     return new Client("mlmg", "Motion Script", command, {
       documentSelector: [{ language: LANGUAGE }],
       initializationOptions: { ...said, library: said.library || undefined },
+      errorHandler: new Again(),
       initializationFailedHandler: () => false,
       outputChannel: this.log,
       revealOutputChannelOn: RevealOutputChannelOn.Never,
