@@ -24,12 +24,12 @@ const TRUST = { title: "Manage trust", command: "workbench.trust.manage" };
 
 /** Leaves it to us to say, once, what has failed for good; all else is only written into the log. */
 class Client extends LanguageClient {
-  failed: (reason: string) => void = () => undefined;
+  failed: () => void = () => undefined;
 
   override error(message: string, data?: unknown, shown?: boolean | "force"): void {
     super.error(message, data, false);
     if (shown === "force") {
-      this.failed(message);
+      this.failed();
     }
   }
 }
@@ -115,9 +115,9 @@ export class Server {
 
   private async start(program: string, said: Settings): Promise<void> {
     const client = this.clientOf(program, said);
-    client.failed = (reason) => {
+    client.failed = () => {
       if (this.client === client) {
-        this.lacks(`${program} lsp cannot be used: ${reason}`, SHOW_LOG, RESTART);
+        this.lacks(`${program} lsp could not be started, or ends again and again; the log says why.`, SHOW_LOG, RESTART);
       }
     };
     client.onDidChangeState(({ newState }) => {
