@@ -23,7 +23,7 @@ class Client:
     ----------
     encoding : what it counts characters in.
     pulls : whether it asks for diagnostics, and can be told to ask again; else it is told of them.
-    related, tags : whether diagnostics may have other places, and tags.
+    related, tags, links : whether diagnostics may have other places, tags, and links to what they mean.
     snippets : whether completions may have places to fill in.
     markdown_of_completions, markdown_of_hovers : whether what there is to read may be Markdown.
     indents : whether it can be told how to indent what a completion writes.
@@ -38,6 +38,7 @@ class Client:
     pulls: bool = False
     related: bool = False
     tags: bool = False
+    links: bool = False
     snippets: bool = False
     markdown_of_completions: bool = False
     markdown_of_hovers: bool = False
@@ -71,6 +72,7 @@ def client_from(capabilities: types.ClientCapabilities) -> Client:
         pulls=has("text_document.diagnostic") is not None and bool(has("workspace.diagnostics.refresh_support")),
         related=bool(has("text_document.publish_diagnostics.related_information")),
         tags=bool(has("text_document.publish_diagnostics.tag_support")),
+        links=bool(has("text_document.publish_diagnostics.code_description_support")),
         snippets=bool(has("text_document.completion.completion_item.snippet_support")),
         markdown_of_completions="markdown" in texts("text_document.completion.completion_item.documentation_format"),
         markdown_of_hovers="markdown" in texts("text_document.hover.content_format"),

@@ -14,7 +14,7 @@ from lsprotocol import types
 
 from mlmg_lang.diagnostics import Diagnostic, Severity
 from mlmg_lang.parsing import syntax
-from mlmg_lang.rules import read_rule
+from mlmg_lang.rules import page_of, read_rule
 from mlmg_lang.source import Source, Span
 from mlmg_lsp.documents import Snapshot
 from mlmg_lsp.positions import EditorPosition, Encoding, offset_from_position, range_from_span, units_in
@@ -108,6 +108,7 @@ def diagnostic_of(snapshot: Snapshot, one: Diagnostic) -> types.Diagnostic:
         message=message_of(one),
         severity=_SEVERITIES[one.severity],
         code=one.code,
+        code_description=_description(one.code) if client.links else None,
         source="mlmg",
         tags=[types.DiagnosticTag.Unnecessary] if client.tags and one.code == _UNUSED else None,
         related_information=related if client.related and related else None,
@@ -124,6 +125,13 @@ def message_of(one: Diagnostic) -> str:
 @cache
 def _meaning(code: str) -> str:
     return read_rule(code).meaning
+
+
+@cache
+def _description(code: str) -> types.CodeDescription | None:
+    """Return the file that tells what a code means; None where this package is not in files."""
+    path = page_of(code)
+    return None if path is None else types.CodeDescription(path.as_uri())
 
 
 def _use_of(snapshot: Snapshot) -> Span:

@@ -5,6 +5,8 @@ from __future__ import annotations
 import random
 import subprocess
 import sys
+from pathlib import Path
+from urllib.parse import unquote, urlsplit
 
 import pytest
 
@@ -340,3 +342,38 @@ def test_after_any_edits_diagnostics_are_those_of_a_fresh_analysis(start, demo_l
             for one in fresh
             if one.span is not None
         ], (version, text)
+
+
+# --- what a mistake means ---
+
+
+def test_hovering_over_a_mistake_tells_what_it_means(client):
+    opened(client, "IDLE for 1 sec\nWLAK for 1 sec\n")
+    hover = client.ask_at("hover", URI, 1, 2)
+    assert "MS021" in hover["contents"]["value"]
+    assert hover["range"]["start"] == {"line": 1, "character": 0}
+
+
+def test_a_mistake_can_be_explained_by_a_command_of_the_menu(client):
+    opened(client, "WLAK for 1 sec\nWLAK\n")
+    place = {"start": {"line": 0, "character": 0}, "end": {"line": 1, "character": 2}}
+    asked = {"textDocument": {"uri": URI}, "range": place, "context": {"diagnostics": []}}
+    found = client.ask("textDocument/codeAction", asked)
+    (explain,) = (one for one in found if one["title"].startswith("Explain `MS021`"))
+    assert len(explain["diagnostics"]) == 2
+    assert "kind" not in explain
+    assert "WLAK" in client.ask("workspace/executeCommand", explain["command"])["text"]
+    mending = client.ask("textDocument/codeAction", asked | {"context": {"diagnostics": [], "only": ["quickfix"]}})
+    assert explain["title"] not in [one["title"] for one in mending]
+
+
+@pytest.mark.parametrize("shown", [True, False])
+def test_a_mistake_links_to_the_text_that_explains_it_where_the_editor_shows_links(start, shown):
+    client = start()
+    client.initialize({"textDocument": {"publishDiagnostics": {"codeDescriptionSupport": shown}}})
+    client.open(URI, "WLAK")
+    (found,) = client.diagnostics(URI)
+    assert ("codeDescription" in found) == shown
+    if shown:
+        page = Path(unquote(urlsplit(found["codeDescription"]["href"]).path))
+        assert "has a motion or tag of this name" in page.read_text(encoding="utf-8")

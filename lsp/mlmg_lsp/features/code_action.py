@@ -8,7 +8,7 @@ from typing import Final
 
 from lsprotocol import types
 
-from mlmg_lang.diagnostics import Diagnostic, Fix
+from mlmg_lang.diagnostics import CODES, Diagnostic, Fix
 from mlmg_lang.fixing import fix_all
 from mlmg_lang.front_end import analyse_again
 from mlmg_lang.ide import actions
@@ -29,13 +29,15 @@ def code_action(snapshot: Snapshot, params: types.CodeActionParams) -> list[type
         ([kind.value for kind in _KINDS.values()], lambda: _actions(snapshot, span)),
         ((FIX_ALL.value,), lambda: _fix_all(snapshot)),
     )
+    if not only:
+        kinds = (*kinds, (("",), lambda: _explanations(snapshot, span)))
     asked = (found for names, found in kinds if any(_is_asked_for(name, only) for name in names))
     return [one for found in asked for one in found() if _is_asked_for(str(getattr(one.kind, "value", one.kind)), only)]
 
 
 def resolve(snapshot: Snapshot, action: types.CodeAction) -> types.CodeAction:
     """Return an action with its edit."""
-    if action.edit is None:
+    if action.edit is None and action.command is None:
         action.edit = _edit_of_all(snapshot)
     return action
 
@@ -47,10 +49,28 @@ def _is_asked_for(kind: str, only: Sequence[str]) -> bool:
 def _fixes(snapshot: Snapshot, span: Span) -> Iterator[types.CodeAction]:
     """Yield the edits of the diagnostics that a stretch touches, the likeliest of each first."""
     length = len(snapshot.analysis.source.text)
+    for one in _touched(snapshot, span):
+        yield from (_fix(snapshot, one, fix) for fix in one.fixes if fix.span.end <= length)
+
+
+def _touched(snapshot: Snapshot, span: Span) -> Iterator[Diagnostic]:
+    """Yield the diagnostics of a script that a stretch of it touches."""
+    length = len(snapshot.analysis.source.text)
     for one in snapshot.analysis.diagnostics:
         own = one.span or Span(0, 0)
         if own.start <= span.end and own.end >= span.start and own.end <= length:
-            yield from (_fix(snapshot, one, fix) for fix in one.fixes if fix.span.end <= length)
+            yield one
+
+
+def _explanations(snapshot: Snapshot, span: Span) -> Iterator[types.CodeAction]:
+    """Yield what tells the meaning of each code in a stretch; of no kind, as it mends nothing."""
+    by_code: dict[str, list[Diagnostic]] = {}
+    for one in _touched(snapshot, span):
+        by_code.setdefault(one.code, []).append(one)
+    for code, found in by_code.items():
+        title = f"Explain `{code}`: {CODES[code].title}"
+        command = types.Command(title, command="mlmg.rule", arguments=[{"code": code}])
+        yield types.CodeAction(title, diagnostics=[diagnostic_of(snapshot, one) for one in found], command=command)
 
 
 def _fix(snapshot: Snapshot, one: Diagnostic, fix: Fix) -> types.CodeAction:

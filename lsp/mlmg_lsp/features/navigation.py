@@ -24,12 +24,18 @@ from mlmg_lsp.library_facts import LibraryFacts, configuration_of
 
 
 def hover(snapshot: Snapshot, params: types.HoverParams) -> types.Hover | None:
-    """Return what there is to say of what stands at a place."""
-    found = hovers.hover(snapshot.analysis, _offset(snapshot, params.position), _facts(snapshot))
-    if found is None:
+    """Return what there is to say of what stands at a place, and what is meant by what is wrong with it."""
+    offset = _offset(snapshot, params.position)
+    said = (
+        hovers.hover(snapshot.analysis, offset, _facts(snapshot)),
+        hovers.hover_mistakes(snapshot.analysis, offset),
+    )
+    found = [one for one in said if one is not None]
+    if not found:
         return None
-    text = "\n\n".join(f"```motion-script\n{part.text}\n```" if part.code else part.text for part in found.parts)
-    return types.Hover(markup(text, snapshot.client.markdown_of_hovers), _range(snapshot, found.span))
+    parts = (part for one in found for part in one.parts)
+    text = "\n\n".join(f"```motion-script\n{part.text}\n```" if part.code else part.text for part in parts)
+    return types.Hover(markup(text, snapshot.client.markdown_of_hovers), _range(snapshot, found[0].span))
 
 
 def _facts(snapshot: Snapshot) -> LibraryFacts | None:

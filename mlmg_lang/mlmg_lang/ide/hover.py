@@ -6,6 +6,7 @@ import re
 from bisect import bisect_right
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cache
 from itertools import chain
 from typing import Final, Protocol
 
@@ -23,6 +24,7 @@ from mlmg_lang.parsing.tokenize import tokenize
 from mlmg_lang.parsing.tokens import Token
 from mlmg_lang.planning import typed
 from mlmg_lang.planning.names import Names
+from mlmg_lang.rules import read_rule
 from mlmg_lang.source import Source, Span
 from mlmg_lang.spelling import joined, normal
 
@@ -74,6 +76,22 @@ def hover(analysis: Analysis, offset: int, anatomy: Anatomy | None = None) -> Ho
         parts = tuple(_Teller(analysis, anatomy, offset, statements).of(found))
         return Hover(found.span, parts) if parts else None
     return _quantity_at(analysis, statements, offset) or _word_at(analysis, offset)
+
+
+def hover_mistakes(analysis: Analysis, offset: int) -> Hover | None:
+    """Return what the diagnostics at an offset mean, each code once; None if there are none."""
+    wrong = {
+        one.code: one.span for one in analysis.diagnostics if one.span and one.span.start <= offset <= one.span.end
+    }
+    span = next(iter(wrong.values()), None)
+    return None if span is None else Hover(span, tuple(part for code in wrong for part in _of_rule(code)))
+
+
+@cache
+def _of_rule(code: str) -> tuple[Part, ...]:
+    """Return what a diagnostic means, and why it is one."""
+    rule = read_rule(code)
+    return (Part(f"**{code}** {rule.meaning}"), Part(rule.why))
 
 
 def code(name: str) -> str:

@@ -11,6 +11,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
+from pathlib import Path
 from pkgutil import get_data
 from typing import Final
 
@@ -59,6 +60,12 @@ def read_rule(code: str) -> RuleText:
         _example(sections["Told"]).text,
         _example(sections["Right"]),
     )
+
+
+def page_of(code: str) -> Path | None:
+    """Return the file of a code, in Markdown; None where this package does not lie in files."""
+    path = Path(__file__).with_name(f"{code}.md")
+    return path if path.is_file() else None
 
 
 def _example(section: str) -> Example:

@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 from mlmg_lang.front_end import analyse, analyse_again
-from mlmg_lang.ide.hover import Hover, code, hover
+from mlmg_lang.ide.hover import Hover, code, hover, hover_mistakes
 from mlmg_lang.ide.words import UNIT_SAYS, WORDS
 from mlmg_lang.parsing.amounts import UNITS
 from mlmg_lang.source import Source
@@ -241,3 +241,13 @@ def test_after_an_edit_the_same_is_said_as_of_the_text_afresh(marked, text):
     fresh = analyse(new, old.question.catalog, files=old.question.files)
     for offset in range(fresh.source.end):
         assert hover(again, offset, Bones()) == hover(fresh, offset, Bones()), offset
+
+
+def test_what_is_wrong_at_a_place_is_told_with_what_it_means(marked: Callable[..., Any]) -> None:
+    at = marked("IDLE for 2 sec\nWL¦AK for 2 sec\nTALK")
+    found = hover_mistakes(at.analysis, at.offset)
+    assert found is not None
+    assert at.analysis.source.slice(found.span) == "WLAK"
+    assert found.parts[0].text.startswith("**MS021** No graph of the library has a motion or tag of this name")
+    assert found.parts[1].text.startswith("A script is read against one library")
+    assert hover_mistakes(at.analysis, 2) is None
