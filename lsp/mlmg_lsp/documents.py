@@ -106,6 +106,7 @@ class Documents:
         files: Callable[[Document], Files],
         told: Callable[[Document], Awaitable[None]],
         get_ready: Callable[[], None],
+        get_ahead: Callable[[Snapshot], None],
     ) -> None:
         """Take what is to be asked.
 
@@ -113,11 +114,13 @@ class Documents:
         ----------
         files : says where a text finds the files that it uses.
         told : is called with each new analysis. get_ready : is called once, before the first.
+        get_ahead : is called with a text that has been opened, when there is nothing else to do.
         """
         self.client = Client()
         self._files = files
         self._told = told
         self._get_ready = get_ready
+        self._get_ahead = get_ahead
         self._open: dict[str, Document] = {}
         self._warming: asyncio.Task[None] | None = None
 
@@ -245,6 +248,9 @@ class Documents:
         await off_loop(lambda: analysis.ready)
         if analysis.made.serial == 0:  # made afresh, so that nearly all of it will stay
             settle()
+            if not document.kept:
+                snapshot = await self.snapshot(document.uri)
+                await off_loop(lambda: self._get_ahead(snapshot))
 
     def _work(self, document: Document) -> Callable[[], Analysis]:
         """Return what is to be done, with all that it needs at hand: what it would ask may change meanwhile."""

@@ -21,7 +21,7 @@ from mlmg_lang.libraries import SETTINGS
 from mlmg_lsp.client import client_from
 from mlmg_lsp.documents import Document, Documents, Snapshot, Superseded, path_of
 from mlmg_lsp.executing import Executor
-from mlmg_lsp.features import COMMANDS, FEATURES, INLAY_HINT, RESOLVING, answer_named, warm
+from mlmg_lsp.features import COMMANDS, FEATURES, INLAY_HINT, RESOLVING, answer_named, get_ahead, warm
 from mlmg_lsp.foresight import Foresight
 from mlmg_lsp.libraries import Shelf
 from mlmg_lsp.progress import Bar
@@ -61,7 +61,7 @@ class MotionScriptServer(LanguageServer):
         self.ended = asyncio.Event()
         self.orderly = False
         self.folders = Workspace(settings, shelf)
-        self.documents = Documents(self._files_of, self._publish, warm)
+        self.documents = Documents(self._files_of, self._publish, warm, get_ahead)
         self.foresight = Foresight(lambda: self._refresh("inlay_hint"), self._foresight_failed)
         self.executor = Executor(self, self.documents, self.snapshot)
         self._said: set[str] = set()

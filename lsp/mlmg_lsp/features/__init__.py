@@ -120,3 +120,8 @@ def warm() -> None:
     _ = before.ready
     _ = analyse_again(before, Source("let a = B for 2 sec\na\nA\n")).diagnostics
     settle()
+
+
+def get_ahead(snapshot: Any) -> None:
+    """Find out of a text that has been opened what takes long the first time, though nobody has asked yet."""
+    answer_named("formatting.get_ahead")(snapshot)

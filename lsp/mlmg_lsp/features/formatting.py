@@ -14,9 +14,15 @@ from mlmg_lsp.convert import changed_lines, range_of
 from mlmg_lsp.documents import Snapshot
 
 
+def get_ahead(snapshot: Snapshot) -> None:
+    """Find out what takes long of a text the first time, so that it is known when it is asked for."""
+    for _ in _changes(snapshot, range(len(snapshot.analysis.source.line_starts))):
+        pass
+
+
 def formatting(snapshot: Snapshot, _params: types.DocumentFormattingParams) -> list[types.TextEdit]:
     """Return what brings a script into canonical form."""
-    return _edits(snapshot, range(len(snapshot.analysis.source.line_starts) + 1), lambda _first, _last: True)
+    return _edits(snapshot, range(len(snapshot.analysis.source.line_starts)), lambda _first, _last: True)
 
 
 def range_formatting(snapshot: Snapshot, params: types.DocumentRangeFormattingParams) -> list[types.TextEdit]:
