@@ -103,6 +103,13 @@ def test_there_is_more_to_read_of_what_is_chosen(client):
     assert "joints: " in client.ask("completionItem/resolve", found["Upper-Body"])["documentation"]["value"]
 
 
+def test_behind_a_quote_labels_have_quotes_too_for_what_is_written_is_compared_with_them(client):
+    opened(client, '"wal for 2 sec')
+    first = client.ask_at("completion", URI, 0, 4)["items"][0]
+    assert (first["label"], first["textEdit"]["newText"]) == ('"WALK"', '"WALK"')
+    assert first["textEdit"]["range"]["end"]["character"] == 4
+
+
 def test_without_a_library_words_and_own_definitions_are_offered(start):
     client = start("--stdio")
     client.initialize()

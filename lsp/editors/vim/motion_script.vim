@@ -5,13 +5,13 @@ augroup motion_script
   autocmd FileType motion-script setlocal commentstring=#\ %s iskeyword+=- omnifunc=MotionScriptComplete
 augroup END
 
-" For Ctrl-X Ctrl-O: ALE by itself takes ASCII letters alone for parts of a word.
+" For Ctrl-X Ctrl-O: ALE by itself takes ASCII letters alone for parts of a name, and knows of no names in quotes.
 function! MotionScriptComplete(findstart, base) abort
   if !a:findstart
     return ale#completion#OmniFunc(0, a:base)
   endif
   let l:before = strpart(getline('.'), 0, col('.') - 1)
-  let l:start = match(l:before, '\k*$')
+  let l:start = match(l:before, count(l:before, '"') % 2 ? '"[^"]*$' : '\k*$')
   call ale#completion#GetCompletions('ale-omnifunc', {'prefix': strpart(l:before, l:start)})
   return l:start
 endfunction

@@ -67,12 +67,11 @@ def resolve(snapshot: Snapshot, item: types.CompletionItem) -> types.CompletionI
 def _item(snapshot: Snapshot, one: Completion, rank: int, place: types.Range, written: str) -> types.CompletionItem:
     snippet = _SNIPPETS.get(one.text) if snapshot.client.snippets and one.what is What.WORD else None
     return types.CompletionItem(
-        label=one.name,
+        # What is compared with it begins with the quote where one is written.
+        label=one.text if written.startswith('"') else one.name,
         kind=_KINDS[one.what],
         detail=_detail(one),
         sort_text=f"{rank:04}",
-        # What is compared with it begins with the quote where one is written.
-        filter_text=one.text if written.startswith('"') else None,
         text_edit=types.TextEdit(place, snippet or one.text),
         insert_text_format=types.InsertTextFormat.Snippet if snippet else None,
         # Else a client may indent the line of a name as it sees fit.

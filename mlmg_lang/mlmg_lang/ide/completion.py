@@ -56,7 +56,7 @@ class Completion(NamedTuple):
 
     Attributes
     ----------
-    text : as it is written, in quotes if it must be. name : as it is called.
+    text : as it is written, in quotes if it must be or a quote has been written. name : as it is called.
     graph : that the motions of a name are on, or None.
     motions : that it stands for.
     fit : how well the best of them goes with what is playing; the smaller, the better. None if that is not known.
@@ -156,7 +156,15 @@ def complete(tokens: Sequence[Token], offset: int, around: Surroundings) -> tupl
     if cursor is None:
         return Span(offset, offset), ()
     found = _Completer(around, cursor).all()
-    return cursor.span, tuple(found)
+    return cursor.span, tuple(_in_quotes(found) if cursor.quoted else found)
+
+
+def _in_quotes(found: Iterable[Completion]) -> Iterator[Completion]:
+    """Yield what can stand in quotes, in quotes: names."""
+    for one in found:
+        if one.what not in (What.WORD, What.UNIT) and one.name != SUB:
+            text = one.text if one.text.startswith('"') else f'"{one.text}"'
+            yield Completion(text, *one[1:])
 
 
 @dataclass(frozen=True, slots=True)

@@ -21,7 +21,9 @@ class Cursor:
     Attributes
     ----------
     word : what stands of a word before the cursor, without quotes; empty between words.
-    span : what takes the place of that word: all of it, also what stands behind the cursor.
+    span : what takes the place of that word: all of it, also what stands behind the cursor; but of a name without its
+        second quote, whose end nobody knows, what stands before the cursor.
+    quoted : whether that word begins with a quote.
     before : the tokens of the statement before that word.
     last : those of the statement before this one, if only a line end stands between the two: a line may go on with it.
     nested : whether the statement stands in braces.
@@ -29,6 +31,7 @@ class Cursor:
 
     word: str
     span: Span
+    quoted: bool
     before: tuple[Token, ...]
     last: tuple[Token, ...]
     nested: bool
@@ -47,14 +50,15 @@ def cursor_at(tokens: Sequence[Token], offset: int) -> Cursor | None:
         return None
     if under is not None and under.type == "STRING" and under.span.end == offset:
         return None
-    word, span = "", Span(offset, offset)
+    word, span, quoted = "", Span(offset, offset), False
     if under is not None and _is_word(under):
         n_words = 2 if _ends_in_hyphen(before) else 1
-        span = Span(before[-n_words].span.start, under.span.end)
+        span = Span(before[-n_words].span.start, offset if under.type == "UNCLOSED" else under.span.end)
+        quoted = under.type in ("STRING", "UNCLOSED")
         word = "".join(token.text for token in before[-n_words:])[: offset - span.start].lstrip('"')
         before = before[:-n_words]
     line, last, nested = _statement(before, offset)
-    return Cursor(word, span, line, last, nested)
+    return Cursor(word, span, quoted, line, last, nested)
 
 
 def is_open(tokens: Sequence[Token]) -> bool:

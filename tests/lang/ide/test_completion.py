@@ -123,6 +123,24 @@ def test_names_that_need_quotes_are_offered_in_quotes(texts: Texts, catalog: Any
     assert texts("¦", odd, playing="走路")[:3] == ['"hand on hip"', '"with"', "走路"]
 
 
+def test_behind_a_quote_names_alone_are_offered_and_all_in_quotes(texts: Texts, catalog: Any) -> None:
+    odd = catalog({"Body": {"hand on hip": (), "with": (), "走路": ()}}, {}, start="走路")
+    assert texts('"¦', odd, playing="走路") == ['"hand on hip"', '"with"', '"走路"']
+    assert texts('走路 for 3 "¦', odd, playing="走路") == []
+    assert "Sub" in texts("WALK with ¦")
+    assert {'"Sub"', '"not"'}.isdisjoint(texts('WALK with "¦'))
+
+
+def test_of_a_name_without_its_second_quote_what_stands_behind_the_cursor_stays(reference: Catalog) -> None:
+    from mlmg_lang.ide.cursor import cursor_at
+    from mlmg_lang.parsing.tokenize import tokenize
+
+    for text, replaced in (('"ha for 2 sec', '"ha'), ('"ha on hip" for 2 sec', '"ha on hip"')):
+        cursor = cursor_at(tokenize(Source(text)), 3)
+        assert cursor is not None
+        assert (text[cursor.span.start : cursor.span.end], cursor.word) == (replaced, "ha")
+
+
 def test_what_has_been_used_more_comes_first_among_equals(reference: Catalog) -> None:
     from mlmg_lang.ide.completion import Offers, Surroundings, complete
     from mlmg_lang.planning import flow

@@ -50,6 +50,7 @@ class Deed:
     chosen : what is chosen, or the new name. after : the text that comes of it.
     told : what the text is told to have, as what is underlined and the message, before it.
     said : what is shown of what is under the cursor. beside : what comes of the file that is used.
+    beyond : the editors that cannot do it; docs/editors.md says why.
     """
 
     name: str
@@ -60,6 +61,7 @@ class Deed:
     told: tuple[tuple[str, str], ...] = ()
     said: str | None = None
     beside: str | None = None
+    beyond: tuple[str, ...] = ()
 
 
 PLAIN = "Idle_01 with Upper-Body "
@@ -101,6 +103,15 @@ IN_CHINESE = "let 走路 = WALK\nIdle_01\n"
 USED = "used-😀.ms"
 USED_TEXT = '# 😀\r\nlet "😀" = greet; let {} = TALK # 走路\u2028\r\n'
 ALONE_DEEDS = (
+    Deed(
+        "complete-quoted",
+        "complete",
+        'let "😀走" = WALK\nIdle_01\n"😀走"\n"😀‸\n',
+        '"😀走"',
+        'let "😀走" = WALK\nIdle_01\n"😀走"\n"😀走"\n',
+        (('"😀', 'this name in quotes has no closing `"`'),),
+        beyond=("eglot",),
+    ),
     Deed(
         "rename-used",
         "rename",
@@ -214,13 +225,14 @@ def run(folder: Path, *command: str) -> str:
     return (done.stdout + done.stderr).decode("utf-8", "replace")
 
 
-def check(folder: Path, said: str) -> None:
-    """Compare what an editor has done with what it should have."""
+def check(folder: Path, said: str, editor: str = "") -> None:
+    """Compare what an editor has done with what it should have; what is beyond it does not count."""
     answers = folder / "answers.json"
     assert answers.exists(), said
     found = json.loads(answers.read_text("utf-8"))
-    seen = {task.file: _seen(folder, task, found.get(task.file, {"error": "no answer"})) for task in tasks()}
-    wrong = [f"{task.file}: {seen[task.file]}\n" for task in tasks() if seen[task.file] != task.answered]
+    wanted = [task for task in tasks() if editor not in task.deed.beyond]
+    seen = {task.file: _seen(folder, task, found.get(task.file, {"error": "no answer"})) for task in wanted}
+    wrong = [f"{task.file}: {seen[task.file]}\n" for task in wanted if seen[task.file] != task.answered]
     assert not wrong, "".join(wrong)
 
 
@@ -278,4 +290,4 @@ def test_emacs_does_all_in_each_text(folder: Path, client: str) -> None:
         pytest.skip(f"not installed: Emacs with {client}")
     files = (EDITORS / "emacs" / f"motion-script-{client}.el", HERE / "drive_emacs.el", HERE / f"drive_{client}.el")
     said = run(folder, "emacs", "--batch", *(word for file in files for word in ("-l", str(file))), "-f", "drive")
-    check(folder, said)
+    check(folder, said, client)
