@@ -20,6 +20,7 @@ settings.load_profile("mlmg")
 
 def pytest_addoption(parser: pytest.Parser) -> None:
     parser.addoption("--update-golden", action="store_true", help="rewrite the files in tests/golden and tests/invalid")
+    parser.addoption("--all-edits", action="store_true", help="try every slip of the hand, not a part of them")
     parser.addoption("--edits", type=int, default=180, help="how many random edits the language server is tried with")
 
 

@@ -152,6 +152,7 @@ def changed_names(before: Definitions, after: Definitions) -> frozenset[str]:
     """Return the names that mean something else than before, if they are used."""
     names = {*before.lets, *after.lets}
     changed = {name for name in names if _meaning(before, name) != _meaning(after, name)}
+    changed |= before.unread ^ after.unread
     users: dict[str, set[str]] = {}
     for name, let in after.lets.items():
         for used in names_in(let):
@@ -215,7 +216,7 @@ def touched(before: InPieces, change: Change) -> list[int]:
     new = {*range(change.first, change.first + change.n_new), *change.again}
     if change.made.gathered is before.gathered:
         return sorted(new)
-    known = (list(one.gathered.definitions.lets) for one in (before, change.made))
+    known = ((list(of.lets), of.unread) for of in (one.gathered.definitions for one in (before, change.made)))
     same = next(known) == next(known)
     others = (at for at in range(len(lines)) if at not in new)
     names = change.names

@@ -13,12 +13,13 @@ from mlmg_lang.catalog import Catalog
 from mlmg_lang.definitions.expand import MAX_ALL_NODES, Expander, unused
 from mlmg_lang.definitions.gather import Files, Gathered, NoFiles, gather, gather_with
 from mlmg_lang.diagnostics import Diagnostic
+from mlmg_lang.following import without_following
 from mlmg_lang.parsing.case import guess_case
 from mlmg_lang.parsing.lookalikes import opens_or_closes
 from mlmg_lang.parsing.nesting import Around
 from mlmg_lang.parsing.parse import read_marks
 from mlmg_lang.parsing.structure import check_definition, check_structure, misplaced
-from mlmg_lang.parsing.syntax import Item, Let, Script, Use
+from mlmg_lang.parsing.syntax import BrokenDefinition, Item, Let, Script, Use
 from mlmg_lang.parsing.tokenize import MAX_TOKENS, tokenize
 from mlmg_lang.parsing.tokens import Token
 from mlmg_lang.pieces import Piece, all_of, lines_of
@@ -28,6 +29,7 @@ from mlmg_lang.suppression import suppress
 
 if TYPE_CHECKING:
     from mlmg_lang.editing import Change
+    from mlmg_lang.planning import typed
     from mlmg_lang.planning.names import Names
     from mlmg_lang.planning.plan import Planner
 
@@ -139,15 +141,19 @@ class _Reader:
         script = Script(piece.items, Span(piece.address, piece.address + piece.size))
         expanded, n_nodes, said = self._expanded(piece)
         said += misplaced(script) if piece.defining else ()
-        whole = self._gathered.definitions.complete
-        said += check_structure(replace(script, items=expanded), self._frame_rate, whole, self._own)
+        known = self._gathered.definitions
+        said += check_structure(
+            replace(script, items=expanded), self._frame_rate, known.complete, self._own, known.unread
+        )
+        statements: tuple[typed.Statement, ...] = ()
         if self._planner is None:
             said += guess_case(script)
-            return replace(piece, expanded=expanded, n_nodes=n_nodes, said=tuple(said))
-        before = len(self._planner.diagnostics)
-        statements = self._planner.body(expanded)
-        said += self._planner.diagnostics[before:]
-        return replace(piece, expanded=expanded, n_nodes=n_nodes, said=tuple(said), statements=statements)
+        else:
+            before = len(self._planner.diagnostics)
+            statements = self._planner.body(expanded)
+            said += self._planner.diagnostics[before:]
+        told = without_following(said, piece.misread, piece.items) if piece.misread else said
+        return replace(piece, expanded=expanded, n_nodes=n_nodes, said=tuple(told), statements=statements)
 
     def _expanded(self, piece: Piece) -> tuple[tuple[Item, ...], int, list[Diagnostic]]:
         """Return what a piece says with what is defined put in, how large that has made it, and what is wrong."""
@@ -159,6 +165,11 @@ class _Reader:
         items = self._expander.body(piece.items)
         said = self._expander.diagnostics[before:]
         return items if items != piece.items else piece.items, self._expander.all_nodes - n_nodes, said
+
+
+def _is_open(item: Item) -> bool:
+    """Return whether an item may have been meant to define any names."""
+    return isinstance(item, BrokenDefinition) and not item.names
 
 
 def _defining(lines: Sequence[Piece], pieces: Sequence[Piece | WholeBlock]) -> Script:
@@ -179,7 +190,16 @@ def _unused(made: InPieces) -> Iterator[Diagnostic]:
 def _read(made: InPieces) -> tuple[Diagnostic, ...]:
     """Return all that is wrong with the text, the names and the types of a script."""
     blocks = () if made.pieces is made.lines else (piece for piece in made.pieces if isinstance(piece, WholeBlock))
-    return (*made.defined, *made.unused, *all_of(made.lines, "told"), *all_of(blocks, "told"))
+    return (*_defined(made), *made.unused, *all_of(made.lines, "told"), *all_of(blocks, "told"))
+
+
+def _defined(made: InPieces) -> Sequence[Diagnostic]:
+    """Return what is wrong with the definitions, but not what may follow from what is wrong with their text."""
+    misread = [line for line in made.lines if line.misread and line.defining] if made.defined else []
+    if not misread:
+        return made.defined
+    items = tuple(all_of(misread, "defining"))
+    return tuple(without_following(made.defined, tuple(all_of(misread, "misread")), items))
 
 
 def _told(question: Question, found: Found, made: InPieces) -> Analysis:
@@ -283,7 +303,8 @@ def _defined_again(before: InPieces, change: Change | None) -> Change | None:
     if not defining and not change.moves_braces(before):
         return change
     items = _defining(lines, lines)
-    if any(isinstance(item, Use) for item in (*defining, *(items.items if change.moves_braces(before) else ()))):
+    moved = items.items if change.moves_braces(before) else ()
+    if any(isinstance(item, Use) or _is_open(item) for item in (*defining, *moved)):
         return None
     if not defining:
         return change

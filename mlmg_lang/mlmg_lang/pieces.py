@@ -100,7 +100,7 @@ class Piece:
 
     @cached_property
     def defining(self) -> tuple[syntax.Item, ...]:
-        """Return its items with definitions or the use of a file somewhere in them."""
+        """Return its items with definitions or the use of a file somewhere in them, read or not."""
         return tuple(item for item in self.items if _defines(item))
 
     @cached_property
@@ -122,7 +122,7 @@ class Piece:
 
 def _defines(item: syntax.Item) -> bool:
     nodes = syntax.walk(item) if isinstance(item, syntax.Repeat | syntax.Choose) else (item,)
-    return any(isinstance(node, syntax.Let | syntax.Use) for node in nodes)
+    return any(isinstance(node, syntax.Let | syntax.Use | syntax.BrokenDefinition) for node in nodes)
 
 
 def all_of(pieces: Iterable[object], name: str) -> Iterator[Any]:

@@ -49,11 +49,13 @@ class Definitions:
     lets : by name, in NFC.
     signatures : by name, the parameters of those that can be used; those with mistakes have none.
     complete : False if a file with more of them could not be used.
+    unread : the names, in NFC, of those that could not be read.
     """
 
     lets: Mapping[str, syntax.Let]
     signatures: Mapping[str, Signature]
     complete: bool
+    unread: frozenset[str] = frozenset()
 
     def find(self, name: syntax.Name) -> syntax.Let | None:
         """Return the definition of a name."""
@@ -117,7 +119,11 @@ def gather_with(script: syntax.Script, used: Used) -> Gathered:
     twice = [one for part in (script, *used.scripts) for one in _defined(part, own)]
     lets = earlier | own
     found, wrong = signatures(lets)
-    return Gathered(Definitions(lets, found, used.complete), used, (*used.diagnostics, *twice, *wrong))
+    parts = (*used.earlier, script, *used.scripts)
+    broken = [item for part in parts for item in part.items if isinstance(item, syntax.BrokenDefinition)]
+    unread = frozenset(normal(name) for item in broken for name in item.names) - lets.keys()
+    complete = used.complete and all(item.names for item in broken)
+    return Gathered(Definitions(lets, found, complete, unread), used, (*used.diagnostics, *twice, *wrong))
 
 
 def _defined(script: syntax.Script, lets: dict[str, syntax.Let]) -> Iterator[Diagnostic]:

@@ -18,6 +18,7 @@ from mlmg_lang.formatting.printing import Printer
 from mlmg_lang.formatting.words import Words, words_of
 from mlmg_lang.parsing.layout import lay_out
 from mlmg_lang.parsing.lookalikes import has_other_comments
+from mlmg_lang.parsing.strays import stray_signs, without_strays
 from mlmg_lang.parsing.tokenize import tokenize
 from mlmg_lang.source import Source
 
@@ -74,7 +75,9 @@ class Forms:
     def _print(self, text: str) -> str:
         source = Source(text)
         tokens = tokenize(source)
-        return Printer(source, tokens, lay_out(tokens), self._words, self._sound).script()
+        strays = [one.span for one in stray_signs(tokens) if one.span is not None]
+        layout = lay_out(without_strays(tokens))
+        return Printer(source, tokens, layout, self._words, self._sound, strays).script()
 
 
 def forms_of(analysis: Analysis, previous: Forms | None = None) -> Forms:

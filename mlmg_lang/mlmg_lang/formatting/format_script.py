@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from mlmg_lang.formatting.printing import Printer
 from mlmg_lang.parsing.layout import lay_out
 from mlmg_lang.parsing.lookalikes import has_other_comments
+from mlmg_lang.parsing.strays import stray_signs, without_strays
 from mlmg_lang.parsing.tokenize import MAX_TOKENS, tokenize
 from mlmg_lang.source import Source
 
@@ -38,5 +39,6 @@ def format_script(source: Source) -> Formatted:
     # Lines of other comments would be taken for statements, and broken up.
     if len(tokens) == MAX_TOKENS or has_other_comments(tokens):
         return Formatted(source.text, False)
-    printer = Printer(source, tokens, lay_out(tokens))
+    strays = [one.span for one in stray_signs(tokens) if one.span is not None]
+    printer = Printer(source, tokens, lay_out(without_strays(tokens)), strays=strays)
     return Formatted(printer.script(), not printer.kept)

@@ -35,6 +35,7 @@ class Printer:
         layout: Layout,
         words: Words | None = None,
         known: dict[tuple[str, ...], bool] | None = None,
+        strays: Sequence[Span] = (),
     ) -> None:
         """Take a script, its tokens and how they fall into lines and blocks.
 
@@ -42,15 +43,17 @@ class Printer:
         ----------
         words : of the script that this is a piece of; else they are found in it.
         known : see `Soundness`.
+        strays : the places of signs that are in no line.
         """
         self._source = source
         self._tokens = tokens
         self._layout = layout
+        self._strays = frozenset(strays)
         self.kept = False
         self._at = 0  # the first token that has not been written yet
         self._page = Page()
         self._top = 0  # the row in which the last statement begins
-        self._sound = Soundness(source, tokens, layout, {} if known is None else known)
+        self._sound = Soundness(source, tokens, layout, {} if known is None else known, strays)
         self._words = words or words_of(statements(layout.items))
 
     def script(self) -> str:
@@ -75,7 +78,7 @@ class Printer:
         """Keep a block; one that is nowhere closed reaches to the end, comments included."""
         first, end = self._at, block.span.end
         self._skip(end)
-        inside = [token.type for token in self._tokens[first : self._at]]
+        inside = [token.type for token in self._tokens[first : self._at] if token.span not in self._strays]
         if inside.count("OPEN") > inside.count("CLOSE"):
             end = next(token.span.end for token in reversed(self._tokens) if token.type != "NEWLINE")
         self._keep(Span(block.span.start, end), indent)

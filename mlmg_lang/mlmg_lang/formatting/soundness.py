@@ -22,22 +22,27 @@ class Soundness:
         tokens: Sequence[Token],
         layout: Layout,
         known: dict[tuple[str, ...], bool] | None = None,
+        strays: Sequence[Span] = (),
     ) -> None:
         """Take a script, its tokens, and what is wrong with its braces.
 
         Parameters
         ----------
+        strays : the places of signs that cut statements in two.
         known : which kinds of lines parse, as far as that has been asked; what is asked is added.
         """
         self._source = source
         self._odd = {one.span for one in check_tokens(tokens) if one.severity is Severity.ERROR}
         self._braces = {one.span for one in layout.diagnostics}
         self._too_deep = [one.span.start for one in layout.diagnostics if one.span and one.code == "MS005"]
+        self._signs = sorted(span.start for span in strays)
         self._known = {} if known is None else known
 
     def line(self, tokens: Sequence[Token]) -> bool:
         """Return whether a line is a statement without a mistake."""
         if self._odd and any(token.span in self._odd for token in tokens):
+            return False
+        if self._signs and self._has_sign(Span(tokens[0].span.start, tokens[-1].span.start)):
             return False
         kinds = tuple([token.type for token in tokens])
         sound = self._known.get(kinds)
@@ -51,6 +56,10 @@ class Soundness:
             return False
         end = Span(block.brace.end, block.brace.end)
         return self.line((*block.head, Token("OPEN", "{", block.brace), Token("CLOSE", "}", end)))
+
+    def _has_sign(self, span: Span) -> bool:
+        first = bisect_left(self._signs, span.start)
+        return first < len(self._signs) and self._signs[first] < span.end
 
     def _is_too_deep(self, span: Span) -> bool:
         first = bisect_left(self._too_deep, span.start)

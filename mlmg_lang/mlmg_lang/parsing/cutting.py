@@ -12,6 +12,8 @@ from dataclasses import dataclass
 
 from mlmg_lang.parsing.layout import inside_parentheses
 from mlmg_lang.parsing.lookalikes import as_meant
+from mlmg_lang.parsing.quotes import requoted, without_lone
+from mlmg_lang.parsing.strays import without_strays
 from mlmg_lang.parsing.tokens import CONTINUES, ENDS_PARENTHESES, OPENS_STATEMENT, Token
 
 
@@ -34,7 +36,7 @@ def cut(tokens: Sequence[Token]) -> Cuts:
     starts: list[int] = []
     end: int | None = None
     empty = True
-    meant = as_meant(tokens)
+    meant = _meant(tokens)
     for token, inside in zip(meant, inside_parentheses(meant), strict=True):
         kind = token.type
         if kind == "NEWLINE":
@@ -67,7 +69,7 @@ def balance(tokens: Sequence[Token]) -> Balance:
     """Return what parentheses are left without a partner in some whole lines."""
     n_closing = n_open = 0
     parts, first = False, True
-    for token in as_meant(tokens):
+    for token in _meant(tokens):
         kind = token.type
         if kind in ENDS_PARENTHESES or (first and kind in OPENS_STATEMENT):
             n_open, parts = 0, True
@@ -78,3 +80,8 @@ def balance(tokens: Sequence[Token]) -> Balance:
             n_open = max(0, n_open - 1)
         first = kind == "NEWLINE" or (first and kind == "COMMENT")
     return Balance(n_closing, n_open, parts)
+
+
+def _meant(tokens: Sequence[Token]) -> Sequence[Token]:
+    """Return the tokens that layout goes by."""
+    return without_strays(without_lone(as_meant(requoted(tokens))))

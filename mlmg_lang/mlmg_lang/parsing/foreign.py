@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from types import MappingProxyType
 from typing import Final
 
+from mlmg_lang.parsing.tokens import Token
 from mlmg_lang.spelling import is_slip_of
 
 _HERE: Final[Mapping[str, tuple[str, ...]]] = MappingProxyType(
@@ -17,7 +18,7 @@ _HERE: Final[Mapping[str, tuple[str, ...]]] = MappingProxyType(
         "wait": ("pause", "sleep", "hold", "delay", "stay"),
         "end": ("stop", "finish", "release", "halt", "cancel"),
         "with": ("while", "during", "plus", "whilst"),
-        "for": ("during", "lasting", "over"),
+        "for": ("during", "lasting", "over", "at", "in", "within"),
     }
 )
 """A word of the language -> those that stand elsewhere for it."""
@@ -41,10 +42,27 @@ NUMBERS: Final[Mapping[str, str]] = MappingProxyType(
 """Numbers in words."""
 
 
+_HEADS: Final = frozenset({"repeat", "choose"})
+
+
 def means_choose(text: str) -> bool:
     """Return whether a word before `{` is `choose`, in another case, misspelt, or as other languages say it."""
     low = text.lower()
     return low == "choose" or other_word(low, "choose") or is_slip_of(low, "choose")
+
+
+def opens_block(head: Sequence[Token]) -> bool:
+    """Return whether what stands before `{` is meant for `repeat` or `choose`, as `for` is in other languages."""
+    if head and head[0].type == "FOR":
+        return True
+    words = [token.text.lower() for token in head if token.type in ("NAME", "REPEAT", "CHOOSE")]
+    slips = (is_slip_of(word, meant) for word in words[:1] for meant in _HEADS)
+    return any(word in _HEADS or not _HEADS.isdisjoint(MEANT.get(word, ())) for word in words) or any(slips)
+
+
+def defines(head: Sequence[Token]) -> bool:
+    """Return whether what stands before `{` is meant for `let`."""
+    return any(token.type == "LET" or other_word(token.text, "let") for token in head)
 
 
 def other_word(text: str, wanted: str) -> bool:

@@ -2,28 +2,20 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable, Iterator, Sequence
-from typing import Final
 
 from mlmg_grammar import is_name, reserved_words
 from mlmg_lang.diagnostics import Diagnostic, Fix
 from mlmg_lang.parsing.build_syntax import bad_escapes, motion_script
+from mlmg_lang.parsing.quotes import CURLY, ENDS_NAME, is_lone
 from mlmg_lang.parsing.tokens import Token
 from mlmg_lang.source import Source, Span
 from mlmg_lang.spelling import listed
 
-_ENDS_NAME: Final = re.compile(r"\s*#|\s+(?:with|and|or|for|once)(?!\S)")
-"""What stands rather behind a name whose closing quote was forgotten than in it."""
-
-
-_CURLY: Final = frozenset("\u201c\u201d\u201e\u201f\u00ab\u00bb\u2018\u2019\u201a\uff02")
-"""What editors for prose make of quotes."""
-
 
 def join_quoted(tokens: Sequence[Token], source: Source) -> Sequence[Token]:
     """Return tokens with those between printed quotes in a line as one name, which then is told of as one mistake."""
-    if not tokens or not any(sign in source.file(tokens[0].span.start)[0].text for sign in _CURLY):
+    if not tokens or not any(sign in source.file(tokens[0].span.start)[0].text for sign in CURLY):
         return tokens
     joined: list[Token] = []
     opened: int | None = None
@@ -31,9 +23,9 @@ def join_quoted(tokens: Sequence[Token], source: Source) -> Sequence[Token]:
         joined.append(token)
         if token.type == "NEWLINE":
             opened = None
-        elif token.type == "NAME" and opened is None and token.text[0] in _CURLY and token.text[-1] not in _CURLY:
+        elif token.type == "NAME" and opened is None and token.text[0] in CURLY and token.text[-1] not in CURLY:
             opened = len(joined) - 1
-        elif token.type == "NAME" and opened is not None and token.text[-1] in _CURLY:
+        elif opened is not None and ((token.type == "NAME" and token.text[-1] in CURLY) or is_lone(token)):
             span = Span(joined[opened].span.start, token.span.end)
             joined[opened:] = [Token("NAME", source.slice(span), span)]
             opened = None
@@ -52,8 +44,13 @@ def check_tokens(tokens: Iterable[Token]) -> Iterator[Diagnostic]:
 
 
 def _unclosed(token: Token) -> Diagnostic:
+    if is_lone(token):
+        message, fix = 'this `"` has no partner', Fix(token.span, "", safe=False)
+        return Diagnostic("MS002", message, token.span, "take it out, or write the name between two", fixes=(fix,))
+    if token.text[-1] in CURLY:
+        return _curly_quotes(token)
     message = 'this name in quotes has no closing `"`'
-    name = _ENDS_NAME.split(token.text, maxsplit=1)[0].rstrip()
+    name = '"' + ENDS_NAME.split(token.text[1:], maxsplit=1)[0].rstrip()
     if name == '"' or name.endswith("\\"):
         return Diagnostic("MS002", message, token.span, help='write `"` where the name ends')
     fix = Fix(Span(token.span.start, token.span.start + len(name)), f'{name}"', safe=False)
@@ -82,7 +79,7 @@ def _pieces(inside: str) -> Iterator[str]:
 
 
 def _odd_name(token: Token) -> Diagnostic:
-    if _CURLY & set(token.text):
+    if CURLY & set(token.text):
         return _curly_quotes(token)
     letters = dict.fromkeys(letter for letter in token.text if letter != "-")
     wrong = [_shown(letter) for letter in letters if not f"_{letter}".isidentifier()]
@@ -102,8 +99,9 @@ def _unseen(token: Token, message: str) -> Diagnostic:
 
 def _curly_quotes(token: Token) -> Diagnostic:
     message = 'quotes are written `"` in Motion Script, not as they are printed'
-    inside = token.text.strip("".join(_CURLY))
-    if token.text[0] not in _CURLY or token.text[-1] not in _CURLY or _CURLY & set(inside) or not inside:
+    quotes = CURLY | {'"'}
+    inside = token.text.strip("".join(quotes))
+    if token.text[0] not in quotes or token.text[-1] not in quotes or quotes & set(inside) or not inside:
         return Diagnostic("MS003", message, token.span, 'write `"` in their place')
     right = script_name(inside)
     return Diagnostic("MS003", message, token.span, f"write `{right}`", fixes=(Fix(token.span, right, safe=True),))

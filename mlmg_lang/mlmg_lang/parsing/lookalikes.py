@@ -131,10 +131,16 @@ def _odd_lines(tokens: Sequence[Token]) -> Iterator[list[Token]]:
         if token.type == "NEWLINE" and line:
             yield line
             line = []
-        elif _is_odd(token) and not (line and "#" in _narrow(line[-1].text)):
+        elif _is_odd(token) and not (line and "#" in _narrow(line[-1].text)) and not _is_told_elsewhere(token):
             line.append(token)
     if line:
         yield line
+
+
+def _is_told_elsewhere(token: Token) -> bool:
+    """Return whether a sign is left that means nothing either, alone or before a number: the line tells more of it."""
+    first, *rest = _cut(token)
+    return first.type == "UNKNOWN" and all(part.type in ("INTEGER", "DECIMAL") for part in rest)
 
 
 def _wide(tokens: Sequence[Token], source: Source) -> Diagnostic:
@@ -227,7 +233,7 @@ def _comment(span: Span, source: Source) -> Diagnostic:
 
 def opens_or_closes(tokens: Sequence[Token]) -> bool:
     """Return whether there is a sign that could make a comment of other lines."""
-    return any(token.type == "UNKNOWN" and ("/*" in token.text or "*/" in token.text) for token in tokens)
+    return any(token.type in ("UNKNOWN", "UNCLOSED") and ("/*" in token.text or "*/" in token.text) for token in tokens)
 
 
 def has_other_comments(tokens: Sequence[Token]) -> bool:

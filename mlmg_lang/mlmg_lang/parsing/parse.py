@@ -4,22 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from itertools import islice
-from typing import TYPE_CHECKING
+from itertools import islice, takewhile
 
 from mlmg_lang.diagnostics import Diagnostic
 from mlmg_lang.parsing import layout, syntax
+from mlmg_lang.parsing.build_syntax import name_from_token
 from mlmg_lang.parsing.layout import MAX_DEPTH, mark
 from mlmg_lang.parsing.lexical import check_tokens, join_quoted
 from mlmg_lang.parsing.line_parser import Stuck, read
 from mlmg_lang.parsing.lookalikes import as_meant, lookalikes
 from mlmg_lang.parsing.nesting import Around, Braces, Mark, Opened, nested
+from mlmg_lang.parsing.quotes import CURLY, requoted, without_lone
+from mlmg_lang.parsing.strays import stray_signs, without_strays
 from mlmg_lang.parsing.tokenize import MAX_TOKENS
-from mlmg_lang.parsing.tokens import Token
+from mlmg_lang.parsing.tokens import NAMES, Token
 from mlmg_lang.source import Source, Span
-
-if TYPE_CHECKING:
-    from mlmg_lang.parsing.mistakes import Mistake
 
 MAX_MISTAKES = 200
 """After so many a text is no script; reading what is left would take long and help nobody."""
@@ -77,11 +76,15 @@ def read_marks(source: Source, tokens: Sequence[Token], around: Around = ()) -> 
     around : the braces that it stands in.
     """
     reader = _Reader(source)
-    reader.diagnostics += islice(lookalikes(tokens, source), MAX_MISTAKES)
     last = tokens[-1] if len(tokens) == MAX_TOKENS else None
+    tokens = requoted(tokens)
+    reader.diagnostics += islice(lookalikes(tokens, source), MAX_MISTAKES)
     tokens = join_quoted(as_meant(tokens), source)
-    marked = mark(tokens, [braces.bars for braces in around])
-    reader.diagnostics += [*check_tokens(tokens), *marked.diagnostics]
+    reader.diagnostics += islice(check_tokens(tokens), MAX_MISTAKES)
+    tokens = without_lone(tokens)
+    reader.diagnostics += islice(stray_signs(tokens, len(around)), MAX_MISTAKES)
+    marked = mark(without_strays(tokens, len(around)), [braces.bars for braces in around])
+    reader.diagnostics += marked.diagnostics
     del reader.diagnostics[MAX_MISTAKES:]
     if last is not None:
         reader.cut_off(last)
@@ -140,7 +143,7 @@ class _Reader:
         before, head = self._before(opened)
         in_choose = self._in_choose if head is None else isinstance(head, syntax.ChooseHead)
         braces, span = Braces(opened.chooses, in_choose), Span(opened.start, opened.brace.end)
-        return before, Opened(head, opened.brace, span if head else opened.brace, braces, not opened.head)
+        return before, Opened(head, opened.brace, span if head else opened.brace, braces, head is None)
 
     def _before(
         self, opened: layout.Open
@@ -185,31 +188,27 @@ class _Reader:
             message = f"a statement may have at most {MAX_STATEMENT:,} words and signs"
             self._say("MS007", message, tokens[MAX_STATEMENT].span, "say it in several statements")
             return syntax.Broken(span)
-        return self._mended(tuple(_as_names(tokens))) or syntax.Broken(span)
+        n_before = len(self.diagnostics)
+        node = self._mended(tuple(_as_names(tokens)))
+        if node is None or _is_doubtful(tokens, self.diagnostics[n_before:]):
+            return _broken(tokens, span)
+        return replace(node, span=span) if len(self.diagnostics) > n_before else node
 
     def _mended(self, tokens: tuple[Token, ...]) -> syntax.Line | None:
-        """Parse; while the parser is stuck, say why and go on with what was meant, if that leads further."""
-        left = len(tokens) + 1
+        """Parse; where the parser is stuck, say why, and return what was meant if that can be told."""
         outcome = read(self._source, tokens, self._in_choose)
-        while isinstance(outcome, Stuck):
-            if outcome.left >= left:
-                return None
-            left = outcome.left
-            mistake = self._explained(outcome)
-            self.diagnostics.append(mistake.diagnostic)
-            if mistake.meant is None:
-                return None
-            outcome = read(self._source, mistake.meant, self._in_choose)
-        return outcome
-
-    def _explained(self, stuck: Stuck) -> Mistake:
-        # Most scripts have no such mistake, and these modules take as long to import as a small script to parse.
-        from mlmg_lang.parsing.mistakes import Mistake, explain
-
-        if len(stuck.tokens) > _MAX_MENDED:
+        if not isinstance(outcome, Stuck):
+            return outcome
+        if len(tokens) > _MAX_MENDED:
             message = "something does not fit here, in a statement too long to look into"
-            return Mistake(Diagnostic("MS010", message, stuck.span))
-        return explain(stuck)
+            self.diagnostics.append(Diagnostic("MS010", message, outcome.span))
+            return None
+        # Most scripts have no such mistake, and these modules take as long to import as a small script to parse.
+        from mlmg_lang.parsing.mistakes import mend
+
+        mended = mend(outcome)
+        self.diagnostics += mended.diagnostics
+        return mended.line
 
     def _give_up(self, span: Span) -> None:
         if self.diagnostics[-1].code != "MS006":
@@ -227,9 +226,43 @@ def _weight(tokens: Sequence[Token]) -> syntax.Weight | None:
     return syntax.Weight(tokens[0].text, Span(tokens[0].span.start, tokens[1].span.end))
 
 
-def _as_names(tokens: Iterable[Token]) -> Iterable[Token]:
-    """Yield tokens with unclosed names, which have been reported, as if they were closed."""
-    return (replace(token, type="STRING") if token.type == "UNCLOSED" else token for token in tokens)
+def _is_doubtful(tokens: Sequence[Token], told: Sequence[Diagnostic]) -> bool:
+    """Return whether a definition had to be mended before its `=`: then nobody knows what it defines."""
+    if not told or tokens[0].type != "LET":
+        return False
+    equals = next((token.span.start for token in tokens if token.type == "EQUALS"), 0)
+    return any(one.span is not None and one.span.start < equals and not _is_sure(one) for one in told)
+
+
+def _is_sure(one: Diagnostic) -> bool:
+    return any(fix.safe for fix in one.fixes)
+
+
+def _broken(tokens: Sequence[Token], span: Span) -> syntax.Broken:
+    """Return what stands for a line that cannot be read, with the names that it may have been meant to define."""
+    first = next((at for at, token in enumerate(tokens) if token.type == "LET"), None)
+    if first is None:
+        return syntax.BrokenDefinition(span, ()) if tokens[0].type == "USE" else syntax.Broken(span)
+    head = takewhile(lambda token: token.type != "EQUALS", tokens[first + 1 :])
+    names = tuple(name_from_token(token).text for token in head if token.type in NAMES)
+    return syntax.BrokenDefinition(span, names or _first_name(tokens[first + 1 :]))
+
+
+def _first_name(tokens: Iterable[Token]) -> tuple[str, ...]:
+    return tuple(islice((name_from_token(token).text for token in tokens if token.type in NAMES), 1))
+
+
+def _as_names(tokens: Iterable[Token]) -> Iterator[Token]:
+    """Yield tokens with names in odd quotes, which have been reported, as if these were sound where they have to be."""
+    before = ""
+    for token in tokens:
+        if token.type == "UNCLOSED":
+            yield replace(token, type="STRING")
+        elif before == "USE" and token.type == "NAME" and token.text[0] in CURLY:
+            yield replace(token, type="STRING", text=f'"{token.text[1:-1]}"')
+        else:
+            yield token
+        before = token.type
 
 
 def _too_deep(tokens: Iterable[Token]) -> Token | None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 from mlmg_lang.diagnostics import Diagnostic, Fix
@@ -30,7 +30,11 @@ def misplaced(script: syntax.Script) -> Iterator[Diagnostic]:
 
 
 def check_structure(
-    script: syntax.Script, frame_rate: float | None = None, complete: bool = True, own: Sequence[str] = ()
+    script: syntax.Script,
+    frame_rate: float | None = None,
+    complete: bool = True,
+    own: Sequence[str] = (),
+    unread: Collection[str] = (),
 ) -> Iterator[Diagnostic]:
     """Yield what can be said of a script without a library, when its definitions have been put in.
 
@@ -38,9 +42,9 @@ def check_structure(
     ----------
     frame_rate : of the library, if there is one; it says how long frames are.
     complete : False if a file with definitions could not be used, so that any name may be one.
-    own : the names of all definitions.
+    own : the names of all definitions. unread : those, in NFC, of definitions that could not be read.
     """
-    yield from _Structure(frame_rate, complete, own).body(script.items)
+    yield from _Structure(frame_rate, complete, own, unread).body(script.items)
 
 
 def check_blocks(items: Iterable[syntax.Item]) -> Iterator[Diagnostic]:
@@ -110,6 +114,7 @@ class _Structure:
     frame_rate: float | None
     complete: bool
     own: Sequence[str] = ()
+    unread: Collection[str] = ()
 
     def body(self, items: Iterable[syntax.Item]) -> Iterator[Diagnostic]:
         for item in items:
@@ -176,7 +181,9 @@ class _Structure:
                 yield from self.motion(inner, sub)
             case syntax.Qualified(graph, inner):
                 yield from self._graph(graph, sub)
-                yield from self.motion(inner, sub)
+                # What stands behind a definition has been told of with it, however it is written.
+                if not (isinstance(inner, syntax.Call) and graph.text in self.own):
+                    yield from self.motion(inner, sub)
             case syntax.Call():
                 yield from self._call(motion, sub)
 
@@ -195,7 +202,7 @@ class _Structure:
             yield _misplaced_sub(graph)
 
     def _call(self, call: syntax.Call, sub: bool) -> Iterator[Diagnostic]:
-        if not self.complete:
+        if not self.complete or normal(call.name.text) in self.unread:
             return
         yield from self._graph(call.name, sub)
         inner = group_of(call)

@@ -238,6 +238,18 @@ class Broken(Node):
     span: Span
 
 
+@dataclass(frozen=True, slots=True)
+class BrokenDefinition(Broken):
+    """A `let` or `use` that could not be read.
+
+    Attributes
+    ----------
+    names : those that it may have been meant to define; none where these may be any.
+    """
+
+    names: tuple[str, ...]
+
+
 Statement: TypeAlias = Command | Wait | End | Let | Use
 Line: TypeAlias = Statement | RepeatHead | ChooseHead | Weight
 Item: TypeAlias = Statement | Repeat | Choose | Broken

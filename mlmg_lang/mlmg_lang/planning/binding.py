@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import Final
 
 from mlmg_lang.diagnostics import Diagnostic, Fix
 from mlmg_lang.parsing import syntax
@@ -29,6 +30,7 @@ class Scope:
     open : whether a file that defines more could not be used.
     parameters : of the definition that the expression stands in.
     own : all definitions of the script, by name: what may have been meant.
+    unread : the names of definitions that could not be read.
     """
 
     names: Names
@@ -36,10 +38,12 @@ class Scope:
     open: bool
     parameters: frozenset[str] = frozenset()
     own: Mapping[str, syntax.Let] = field(default_factory=dict)
+    unread: frozenset[str] = frozenset()
 
     def defines(self, name: syntax.Name) -> bool:
         """Return whether a name is one of the script's own."""
-        return normal(name.text) in self.definitions or normal(name.text) in self.parameters
+        word = normal(name.text)
+        return word in self.definitions or word in self.parameters or word in self.unread
 
     def kind_of_own(self, name: str) -> str | None:
         """Return what a name of the script's own stands for, in a word; None for other names."""
@@ -99,7 +103,7 @@ def graph_name(name: syntax.Name, scope: Scope) -> Iterator[Unbound]:
     """Yield a name that should be a graph's, if it is not."""
     if is_sub(name) or scope.names.graph(name.text) is not None:
         return
-    if not name.sound:
+    if not name.sound or normal(name.text) in scope.unread:
         yield Unbound(None)
     elif is_shouted(name) and not scope.names.places(name.text):
         yield Unbound(wrong_case(name))
@@ -138,6 +142,8 @@ def _parts(motion: syntax.Motion, scope: Scope) -> Iterator[tuple[syntax.Motion,
             case _:
                 yield part, on
                 if isinstance(part, syntax.Qualified) and isinstance(part.motion, syntax.Call):
+                    if any(graph_name(part.graph, scope)):
+                        continue
                     waiting.append((part.motion, on))
 
 
@@ -151,34 +157,100 @@ def _meant(graph: syntax.Name, names: Names) -> tuple[str, ...]:
 
 def _qualified(node: syntax.Qualified, scope: Scope) -> Iterator[Unbound]:
     """Yield what is wrong with `GRAPH NAME`; the two names tell together what was meant."""
-    graph, names = node.graph, scope.names
+    graph = node.graph
     wrong = list(graph_name(graph, scope))
     if not isinstance(node.motion, syntax.Reference):
         yield from wrong
         return
     name = node.motion.name
-    inner = list(_motion_name(name, scope, _meant(graph, names)))
-    is_known = bool(names.places(graph.text))
-    if wrong and (foreign := _word_of_other_languages(node, names)) is not None:
-        yield Unbound(foreign)
-    elif wrong and is_known and (swapped := _graph_meant(name, inner, names)) is not None:
-        yield Unbound(_swapped(node, swapped, names))
-    elif wrong and is_shouted(graph):
+    inner = list(_motion_name(name, scope, _meant(graph, scope.names)))
+    if not wrong or wrong[0].diagnostic is None:
+        yield from wrong or inner
+        return
+    pair = _Pair(node, name, tuple(inner), scope)
+    told = next((told for rule in _PAIR_RULES if (told := rule(pair)) is not None), None)
+    if told is not None:
+        yield Unbound(told)
+    elif is_shouted(graph):
         yield from wrong
-    elif wrong and names.places(joint := f"{graph.text}_{name.text}"):
-        yield Unbound(_space_in_name(node, next(names.spellings_of(joint))))
-    elif wrong and not inner and is_known:
-        yield Unbound(_side_by_side(node, names))
-    elif wrong and normal(graph.text) in scope.own:
-        yield Unbound(_definition_as_graph(node, scope.own[normal(graph.text)]))
-    elif wrong and inner and is_shouted(name):
-        yield from inner
-    elif wrong and inner and not name.quoted and is_slip_of(name.text, "once") and is_known:
-        yield Unbound(_misspelt_once(name))
-    elif wrong and inner and is_known:
+    elif inner and (pair.is_known or is_shouted(name)):
         yield from inner
     else:
         yield from (*wrong, *inner)
+
+
+@dataclass(frozen=True, slots=True)
+class _Pair:
+    """Two names side by side of which the first is no graph; `inner`: what is wrong with the second, were it one."""
+
+    node: syntax.Qualified
+    name: syntax.Name
+    inner: Sequence[Unbound]
+    scope: Scope
+
+    @property
+    def is_known(self) -> bool:
+        """Return whether the first is the name of a motion or tag."""
+        return bool(self.scope.names.places(self.node.graph.text))
+
+
+def _pair_foreign(pair: _Pair) -> Diagnostic | None:
+    return _word_of_other_languages(pair.node, pair.scope.names)
+
+
+def _pair_swapped(pair: _Pair) -> Diagnostic | None:
+    graph = _graph_meant(pair.name, pair.inner, pair.scope.names) if pair.is_known else None
+    return None if graph is None else _swapped(pair.node, graph, pair.scope.names)
+
+
+def _pair_with_parameter(pair: _Pair) -> Diagnostic | None:
+    is_parameter = normal(pair.node.graph.text) in pair.scope.parameters
+    return _beside_parameter(pair.node, pair.name) if is_parameter else None
+
+
+def _pair_before_graph(pair: _Pair) -> Diagnostic | None:
+    is_graph = pair.scope.names.graph(pair.name.text) is not None and not pair.name.quoted
+    return _before_graph(pair.node, pair.scope.names) if is_graph and not is_shouted(pair.node.graph) else None
+
+
+def _pair_needless(pair: _Pair) -> Diagnostic | None:
+    word = pair.node.graph
+    is_plain = not pair.inner and not is_shouted(word) and _is_plain(word, pair.scope)
+    return _needless(pair.node) if is_plain else None
+
+
+def _pair_spaced(pair: _Pair) -> Diagnostic | None:
+    joint = f"{pair.node.graph.text}_{pair.name.text}"
+    meant = next(pair.scope.names.spellings_of(joint), None) if not is_shouted(pair.node.graph) else None
+    return None if meant is None else _space_in_name(pair.node, meant)
+
+
+def _pair_side_by_side(pair: _Pair) -> Diagnostic | None:
+    return _side_by_side(pair.node, pair.scope.names) if pair.is_known and not pair.inner else None
+
+
+def _pair_with_definition(pair: _Pair) -> Diagnostic | None:
+    let = pair.scope.own.get(normal(pair.node.graph.text))
+    return None if let is None else _definition_as_graph(pair.node, let)
+
+
+def _pair_with_once(pair: _Pair) -> Diagnostic | None:
+    is_slip = bool(pair.inner) and pair.is_known and not pair.name.quoted and is_slip_of(pair.name.text, "once")
+    return _misspelt_once(pair.name) if is_slip and not is_shouted(pair.name) else None
+
+
+_PAIR_RULES: Final[tuple[Callable[[_Pair], Diagnostic | None], ...]] = (
+    _pair_foreign,
+    _pair_swapped,
+    _pair_with_parameter,
+    _pair_before_graph,
+    _pair_needless,
+    _pair_spaced,
+    _pair_side_by_side,
+    _pair_with_definition,
+    _pair_with_once,
+)
+"""The special before the general."""
 
 
 def _word_of_other_languages(node: syntax.Qualified, names: Names) -> Diagnostic | None:
@@ -282,6 +354,10 @@ def _all_names(names: Names, on: Sequence[str]) -> str | None:
 
 
 def _unknown_graph(name: syntax.Name, names: Names) -> Diagnostic:
+    if name.quoted and name.text.casefold() == SUB.casefold() and len(names.graphs) > 1:
+        message = f"in quotes, `{name.text}` is a name like others, and no graph has it"
+        fix = Fix(name.span, SUB, safe=False)
+        return Diagnostic("MS026", message, name.span, f"for the graph below, write `{SUB}` without them", fixes=(fix,))
     near = nearest(name.text, (*names.graphs, *([SUB] if len(names.graphs) > 1 else [])))
     message = f"no graph `{name.text}` in this library"
     advice = f"the graphs are {listed(names.graphs)}" if len(names.graphs) > 1 else f"its one graph is `{names.root}`"
@@ -315,6 +391,39 @@ def _definition_as_graph(node: syntax.Qualified, let: syntax.Let) -> Diagnostic:
     right = f"{script_name(name)}({script_name(argument)})"
     fix = Fix(node.span, right, safe=len(let.parameters) == 1)
     return Diagnostic("MS025", message, node.span, f"write `{right}`", fixes=(fix,))
+
+
+def _is_plain(name: syntax.Name, scope: Scope) -> bool:
+    """Return whether a word without quotes is like nothing known."""
+    names = scope.names
+    known = (*names.spellings(), *names.graphs, SUB, *(let.name.text for let in scope.own.values()))
+    return not name.quoted and name.sound and not nearest(name.text, known)
+
+
+def _before_graph(node: syntax.Qualified, names: Names) -> Diagnostic:
+    """Say what `unkn Upper-Body` is: the graph comes before what it is to do, which is not known either."""
+    word, graph = node.graph, names.graph(node.motion.name.text) or node.motion.name.text
+    known = names.spellings_on(graph)[:1]
+    message = f"`{word.text}` is neither a graph nor a word of the language"
+    example = f", as in `{script_name(graph)} {script_name(known[0])}`" if known else ""
+    return Diagnostic("MS026", message, word.span, f"behind the graph stands what it is to do{example}")
+
+
+def _needless(node: syntax.Qualified) -> Diagnostic:
+    """Say what `play WALK` is."""
+    word, name = node.graph, node.motion.name
+    message = f"`{word.text}` is neither a graph nor a word of the language"
+    fix = Fix(Span(word.span.start, name.span.start), "", safe=False)
+    return Diagnostic("MS026", message, word.span, f"write `{script_name(name.text)}` alone, or a graph before it",
+                      fixes=(fix,))  # fmt: skip
+
+
+def _beside_parameter(node: syntax.Qualified, name: syntax.Name) -> Diagnostic:
+    """Say what `x TALK` is in a definition, where `x` is a parameter."""
+    place = Span(node.motion.span.start, node.motion.span.start)
+    message = f"`{node.graph.text}` is a parameter, not a graph: a word is missing before `{name.text}`"
+    advice = f"for both at once, write `{script_name(node.graph.text)} with {script_name(name.text)}`"
+    return Diagnostic("MS025", message, node.span, advice, fixes=(Fix(place, "with ", safe=False),))
 
 
 def _space_in_name(node: syntax.Qualified, meant: str) -> Diagnostic:

@@ -52,7 +52,9 @@ class Planner:
     def __init__(self, definitions: Definitions, names: Names, frame_rate: float, source: Source) -> None:
         """Take what names can mean; the definitions have been put in already."""
         self.diagnostics: list[Diagnostic] = []
-        self._scope = Scope(names, frozenset(), not definitions.complete, own=definitions.lets)
+        self._scope = Scope(
+            names, frozenset(), not definitions.complete, own=definitions.lets, unread=definitions.unread
+        )
         self._frame_rate = frame_rate
         self._source = source
 
@@ -98,7 +100,7 @@ class Planner:
 
     def _command(self, command: syntax.Command) -> typed.Statement:
         before = len(self.diagnostics)
-        ways = self._ways(command.motion)
+        ways = self._ways(command.motion, command.span)
         self.diagnostics[before:] = [told_from(one, command.span) for one in self.diagnostics[before:]]
         if ways is None:
             return typed.Unplanned(command.span)
@@ -106,9 +108,9 @@ class Planner:
         once = command.once is not None
         return typed.Command(ways, duration, once, self._start(command.motion, ways), command.span)
 
-    def _ways(self, motion: syntax.Motion) -> tuple[typed.Layering, ...] | None:
+    def _ways(self, motion: syntax.Motion, command: Span) -> tuple[typed.Layering, ...] | None:
         """Return the assignments that an expression allows; None, and that is reported, if there is none."""
-        wrong = self._report(unbound(motion, self._scope))
+        wrong = self._report(_written(unbound(motion, self._scope), command))
         if wrong or any(motion_mistakes(motion, complete=not self._scope.open)):
             return None
         ways = select(motion, self._scope.names, self._source)
@@ -165,6 +167,14 @@ class Planner:
             return typed.Duration(None, None, amount.span)
         cycles = float(amount.number) if unit_of(amount) == "cycles" else None
         return typed.Duration(seconds_from_quantity(amount, self._frame_rate), cycles, amount.span)
+
+
+def _written(wrong: Iterable[Unbound], command: Span) -> Iterator[Unbound]:
+    """Yield names that mean nothing; what is wrong with those of definitions is reported where these stand."""
+    for one in wrong:
+        span = None if one.diagnostic is None else one.diagnostic.span
+        is_own = span is None or (command.start <= span.start and span.end <= command.end)
+        yield one if is_own else Unbound(None)
 
 
 def _clashes(name: syntax.Name, names: Names) -> Iterator[Diagnostic]:

@@ -19,7 +19,7 @@ Formatted = Callable[[str], str]
         ("A;\nwith B", "A;\nwith B\n"),
         ("A # c\n # d\n; with B", "A;  # c\n# d\nwith B\n"),
         ("repeat 2 { A };\nwith B", "repeat 2 {\n    A\n}\nwith B\n"),
-        ("repeat 2; { A;B }", "repeat 2;\n{ A;B }\n"),
+        ("repeat 2; { A;B }", "repeat 2; { A;B }\n"),
         ("(A; B)", "(A;\nB)\n"),
         ("(A\nB; C\nD)", "(A\nB;\nC\nD)\n"),
         ("(A; B; C", "(A\nB\nC\n"),

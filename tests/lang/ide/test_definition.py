@@ -76,7 +76,7 @@ def test_other_places_lead_nowhere(leads, text):
 
 
 def test_names_in_statements_that_cannot_be_read_are_found_too(leads):
-    assert leads("let G = WALK\nG for for ¦G") == [("main.ms", 4)]
+    assert leads("let G = WALK\nG for G ¦G") == [("main.ms", 4)]
     assert leads("let G(x) = x\nG(WALK, ¦G") == [("main.ms", 4)]
     assert leads('let "a b" = WALK\nrepeat 2 {\n"a ¦b" with\n') == [("main.ms", 4)]
 

@@ -174,7 +174,7 @@ LINES = (
     "choose { G | 2: H(WALK) | }",
     "WALK with Upper-Body G",
     "I(G and WALK) # G",
-    "走路 for for G",
+    "走路 for G G",
 )
 NEW = ("STROLL", "走路", "hand on hip", "with care", "t", "x", "sec", "then", "loop", "G2", "a-b", 'q"q', "\u00e9", "H")
 

@@ -1,20 +1,61 @@
 """A line that cannot be parsed -> what is wrong with it in its writer's words, and the line as it was meant.
 
 Each rule knows one mistake. The first that applies speaks; if it can also say what was meant, parsing goes on
-with that, so that a second mistake in the same line is found too.
+with that, so that a second mistake in the same line is found too; unless one edit mends both: then they are one.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from typing import Final
 
-from mlmg_lang.parsing.line_parser import Stuck
+from mlmg_lang.diagnostics import Diagnostic
+from mlmg_lang.parsing.line_parser import Stuck, read
 from mlmg_lang.parsing.mistakes import durations, heads, motions, signs, words
 from mlmg_lang.parsing.mistakes.mistake import Mistake, expected, found, mistake
+from mlmg_lang.parsing.mistakes.one_edit import one_edit
+from mlmg_lang.parsing.syntax import Line
 from mlmg_lang.spelling import joined
 
-__all__ = ["Mistake", "explain"]
+__all__ = ["Mended", "explain", "mend"]
+
+
+@dataclass(frozen=True, slots=True)
+class Mended:
+    """What is wrong with a line, and the line as it was probably meant (None: there is no telling)."""
+
+    diagnostics: tuple[Diagnostic, ...]
+    line: Line | None
+
+
+def mend(stuck: Stuck) -> Mended:
+    """Return what is wrong with a line that cannot be parsed: of several mistakes the one that makes them all."""
+    step_by_step = _mended(stuck)
+    if len(step_by_step.diagnostics) > 1 or step_by_step.diagnostics[0].help is None:
+        one = one_edit(stuck)
+        if one is not None and one.meant is not None:
+            line = read(stuck.source, one.meant, stuck.in_choose)
+            assert not isinstance(line, Stuck), "an edit makes all of a line readable"
+            return Mended((one.diagnostic,), line)
+    return step_by_step
+
+
+def _mended(stuck: Stuck) -> Mended:
+    """While the parser is stuck, say why and go on with what was meant, if that leads further."""
+    told: list[Diagnostic] = []
+    left = len(stuck.tokens) + 1
+    outcome: Line | Stuck = stuck
+    while isinstance(outcome, Stuck):
+        if outcome.left >= left:
+            return Mended(tuple(told), None)
+        left = outcome.left
+        mistake = explain(outcome)
+        told.append(mistake.diagnostic)
+        if mistake.meant is None:
+            return Mended(tuple(told), None)
+        outcome = read(stuck.source, mistake.meant, stuck.in_choose)
+    return Mended(tuple(told), outcome)
 
 
 def explain(stuck: Stuck) -> Mistake:
@@ -31,6 +72,7 @@ _RULES: Final[tuple[Callable[[Stuck], Mistake | None], ...]] = (
     words.wrong_case,
     words.comes_next,
     words.word_of_other_languages,
+    durations.how_often,
     durations.odd_number,
     durations.number_of_other_languages,
     durations.clock_time,

@@ -16,8 +16,9 @@ _HAVE: str = "only `repeat` and `choose` are followed by `{`"
 
 def other_head(head: Sequence[Token], brace: Span) -> Mistake | None:
     """`loop 3 {`, `3 times {`, `random {`, `function GREET() {`; None where nothing of the kind stands there."""
-    if len(head) == 1 and head[0].type == "NAME" and is_slip_of(head[0].text, "choose"):
-        return _misspelt_choose(head[0])
+    misspelt = _misspelt(head[0]) if len(head) == 1 and head[0].type == "NAME" else None
+    if misspelt is not None:
+        return misspelt
     words = {word for token in head if token.type == "NAME" for word in MEANT.get(token.text.lower(), ())}
     if head[0].type == "LET" or "let" in words:
         name = next((token.text for token in head[1:] if token.type in NAMES), "NAME")
@@ -25,10 +26,11 @@ def other_head(head: Sequence[Token], brace: Span) -> Mistake | None:
         return mistake("MS013", "a definition stands for one command, without braces", brace, advice)
     if "choose" in words:
         return _instead(head, "choose", Token("CHOOSE", "choose", across(head[0], head[-1])))
-    count = next((token.text for token in head if token.type == "INTEGER"), None)
+    counts = [token.text for token in head if token.type == "INTEGER"]
+    count = max(counts, key=int, default=None)  # of `i = 0; i < 3` the 3
     if count is None:
         count = next((NUMBERS[token.text.lower()] for token in head if token.text.lower() in NUMBERS), None)
-    if "repeat" not in words and (count is None or head[0].type not in ("INTEGER", "FOR")):
+    if "repeat" not in words and head[0].type != "FOR" and (count is None or head[0].type != "INTEGER"):
         return None
     if count is None or not count.isdigit():
         return mistake("MS013", _HAVE, across(head[0], head[-1]), "write how often, as in `repeat 3 { ... }`")
@@ -36,10 +38,16 @@ def other_head(head: Sequence[Token], brace: Span) -> Mistake | None:
     return _instead(head, f"repeat {count}", Token("REPEAT", "repeat", span), Token("INTEGER", count, span))
 
 
-def _misspelt_choose(word: Token) -> Mistake:
-    message, fix = f"`{word.text}` is not a word of the language", Fix(word.span, "choose", safe=False)
-    meant = (Token("CHOOSE", "choose", word.span),)
-    return mistake("MS019", message, word.span, "did you mean `choose`?", fix, meant=meant)
+def _misspelt(word: Token) -> Mistake | None:
+    """`chose {`, `repaet {`."""
+    message = f"`{word.text}` is not a word of the language"
+    if is_slip_of(word.text, "choose"):
+        fix, meant = Fix(word.span, "choose", safe=False), (Token("CHOOSE", "choose", word.span),)
+        return mistake("MS019", message, word.span, "did you mean `choose`?", fix, meant=meant)
+    if is_slip_of(word.text, "repeat"):
+        advice = "did you mean `repeat`? It says how often, as in `repeat 3 { ... }`"
+        return mistake("MS019", message, word.span, advice)
+    return None
 
 
 def _instead(head: Sequence[Token], right: str, *meant: Token) -> Mistake:

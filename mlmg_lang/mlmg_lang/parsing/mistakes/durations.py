@@ -74,6 +74,11 @@ def number_of_other_languages(stuck: Stuck) -> Mistake | None:
     right = spelled(float(written))
     if float(right) == 0 or len(right) > 12:
         return mistake("MS017", f"`{written}` is not a number", span, "write it in digits, as in `1000` or `0.25`")
+    if stuck.left == 1 and stuck.type(-2) in ("FOR", "WAIT"):
+        message = f"`{written}` is not a number in Motion Script, and its unit is missing"
+        meant = replaced(stuck, stuck.at - 1, *_seconds("1", span), n=2)
+        return mistake("MS017", message, span, f"for seconds, write `{right} sec`",
+                       Fix(span, f"{right} sec", safe=False), meant=meant)  # fmt: skip
     meant = _with_harmless(stuck, right, span)
     return mistake("MS017", f"`{written}` is not a number in Motion Script", span, f"write `{right}`",
                    Fix(span, right, safe=True), meant=meant)  # fmt: skip
@@ -184,6 +189,23 @@ def number_in_words(stuck: Stuck) -> Mistake | None:
         return mistake("MS017", message, word.span, "write the number in digits", meant=meant)
     fix = Fix(word.span, digits, safe=True)
     return mistake("MS017", "numbers are written in digits", word.span, f"write `{digits}`", fix, meant=meant)
+
+
+def how_often(stuck: Stuck) -> Mistake | None:
+    """`WALK 2 times`, `WALK 3x`."""
+    at = next((stuck.at + offset for offset in (0, -1) if stuck.type(offset) == "INTEGER"), 0)
+    number, word = stuck.tokens[at : at + 2] if 0 < at < len(stuck.tokens) - 1 else (None, None)
+    if number is None or word is None or word.text.lower() not in ("times", "time", "x"):
+        return None
+    if stuck.tokens[0].type in OPENS_STATEMENT or stuck.tokens[at - 1].type in ("FOR", "LEFT", "EQUALS", "COMMA"):
+        return None
+    rest = (*stuck.tokens[:at], *stuck.tokens[at + 2 :])
+    before, behind = (stuck.source.slice(across(part[0], part[-1])) if part else "" for part in
+                      (stuck.tokens[:at], stuck.tokens[at + 2 :]))  # fmt: skip
+    right = f"repeat {number.text} {{ {f'{before} {behind}'.strip()} }}"
+    fix = Fix(across(stuck.tokens[0], stuck.tokens[-1]), right, safe=False)
+    message = "how often something is played is said by `repeat`"
+    return mistake("MS010", message, across(number, word), f"write `{right}`", fix, meant=rest)
 
 
 def word_before_number(stuck: Stuck) -> Mistake | None:

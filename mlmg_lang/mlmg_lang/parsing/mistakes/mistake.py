@@ -39,6 +39,12 @@ def gets_further(stuck: Stuck, meant: Sequence[Token]) -> bool:
     return not isinstance(outcome, Stuck) or outcome.left < stuck.left
 
 
+def n_unread(stuck: Stuck, meant: Sequence[Token]) -> int:
+    """Return how many tokens of a line, as it may have been meant, the parser leaves unread; -1 if it reads all."""
+    outcome = read(stuck.source, meant)
+    return outcome.left if isinstance(outcome, Stuck) else -1
+
+
 def replaced(stuck: Stuck, at: int, *tokens: Token, n: int = 1) -> tuple[Token, ...]:
     """Return the tokens of a line with `n` of them replaced."""
     return (*stuck.tokens[:at], *tokens, *stuck.tokens[at + n :])

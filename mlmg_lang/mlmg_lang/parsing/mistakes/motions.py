@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Final
 
 from mlmg_lang.diagnostics import Fix
 from mlmg_lang.parsing.line_parser import Stuck
-from mlmg_lang.parsing.mistakes.mistake import Mistake, across, found, mistake, replaced
+from mlmg_lang.parsing.mistakes.mistake import Mistake, across, found, mistake, n_unread, replaced
 from mlmg_lang.parsing.tokens import CONTINUES, JOINERS, NAMES, NUMBERS, Token
 from mlmg_lang.source import Span
 from mlmg_lang.spelling import listed
+
+_MAX_TRIED: Final = 100
+"""In so many places is a parenthesis tried that is missing."""
 
 
 def no_motion_after(stuck: Stuck) -> Mistake | None:
@@ -80,9 +84,22 @@ def parenthesis(stuck: Stuck) -> Mistake | None:
     opened = _open(stuck.tokens)
     if token is not None or not opened or "RIGHT" not in stuck.accepts:
         return None
-    meant = (*stuck.tokens, Token("RIGHT", ")", stuck.span))
-    fix = Fix(stuck.span, ")", safe=False)
-    return mistake("MS012", "this `(` is never closed", opened[-1].span, "write `)` where it ends", fix, meant=meant)
+    place, meant = _closed(stuck, opened[-1])
+    fix = Fix(place, ")", safe=False)
+    last = next(token for token in reversed(stuck.tokens) if token.span.end <= place.start)
+    advice = "write `)` where it ends" if place == stuck.span else f"write `)` behind `{last.text}`"
+    return mistake("MS012", "this `(` is never closed", opened[-1].span, advice, fix, meant=meant)
+
+
+def _closed(stuck: Stuck, opening: Token) -> tuple[Span, tuple[Token, ...]]:
+    """Return where a parenthesis makes all of a line readable, the last such place, and the line then; else its end."""
+    first = stuck.tokens.index(opening) + 1
+    for at in range(len(stuck.tokens), max(first, len(stuck.tokens) - _MAX_TRIED), -1):
+        end = stuck.tokens[at - 1].span.end
+        meant = replaced(stuck, at, Token("RIGHT", ")", Span(end, end)), n=0)
+        if n_unread(stuck, meant) < 0:
+            return Span(end, end), meant
+    return stuck.span, (*stuck.tokens, Token("RIGHT", ")", stuck.span))
 
 
 def _open(tokens: Sequence[Token]) -> list[Token]:

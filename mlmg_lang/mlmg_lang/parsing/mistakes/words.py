@@ -13,7 +13,7 @@ from mlmg_lang.parsing.build_syntax import motion_script
 from mlmg_lang.parsing.foreign import MEANT, NEXT
 from mlmg_lang.parsing.foreign import NUMBERS as IN_WORDS
 from mlmg_lang.parsing.line_parser import Stuck
-from mlmg_lang.parsing.mistakes.mistake import Mistake, across, found, gets_further, mistake, replaced
+from mlmg_lang.parsing.mistakes.mistake import Mistake, across, found, gets_further, mistake, n_unread, replaced
 from mlmg_lang.parsing.tokens import JOINERS, NUMBERS, Token
 from mlmg_lang.source import Span
 from mlmg_lang.spelling import is_slip_of, listed
@@ -72,8 +72,12 @@ def misspelt_word(stuck: Stuck) -> Mistake | None:
         token = stuck.tokens[at]
         if token.type != "NAME" or not token.text.islower():
             continue
-        for word in (word for word in words if is_slip_of(token.text, word)):
-            meant = replaced(stuck, at, replace(token, type=words[word], text=word))
+        slips = {
+            word: replaced(stuck, at, replace(token, type=words[word], text=word))
+            for word in words
+            if is_slip_of(token.text, word)
+        }
+        for word, meant in sorted(slips.items(), key=lambda slip: n_unread(stuck, slip[1])):
             if gets_further(stuck, meant):
                 message, fix = (
                     f"`{token.text}` is not a word of the language",
