@@ -211,6 +211,7 @@ def nothing(_place: dict[str, int]) -> dict[str, Any]:
 FORMAT: Final = {"options": {"tabSize": 4, "insertSpaces": True}}
 DECLARED: Final = {"context": {"includeDeclaration": True}}
 UNDIAGNOSED: Final[Mapping[str, Any]] = {"context": {"diagnostics": []}}
+FIRST: Final = {"line": 0, "character": len("let s")}
 EVERYWHERE: Final = {"line": 0, "character": 0}
 N_ALL: Final = 1 << 20
 ASKED: Final = (
@@ -230,6 +231,7 @@ ASKED: Final = (
     Asking("semantic tokens, full", "semanticTokens/full", nothing),
     Asking("semantic tokens of 60 lines", "semanticTokens/range", lambda at: around(at, 60)),
     Asking("code actions", "codeAction", lambda at: {**around(at), **UNDIAGNOSED}),
+    Asking("code actions of a definition", "codeAction", lambda _: {**around(FIRST), **UNDIAGNOSED}),
     Asking("code actions of all", "codeAction", lambda _: {**around(EVERYWHERE, N_ALL), **UNDIAGNOSED}),
     Asking("formatting", "formatting", lambda _: FORMAT),
     Asking("formatting of 20 lines", "rangeFormatting", lambda at: {**around(at, 20), **FORMAT}),

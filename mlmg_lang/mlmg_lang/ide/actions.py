@@ -125,7 +125,7 @@ def _qualifications(analysis: Analysis, within: Span) -> Iterator[Action]:
     """Yield what writes its graph before a name that means one graph alone, and has none."""
     if analysis.question.names is None:
         return
-    for piece, further in pieces_touching(analysis, within):
+    for piece, further in pieces_touching(analysis, Span(within.start, within.start)):  # a name is in one
         planned = list(_planned(piece.statements))
         for command in commands(piece.items):
             typed_command = next((one for one in planned if one.span == command.span), None)

@@ -30,22 +30,22 @@ def extraction(analysis: Analysis, within: Span) -> Extraction | None:
 
     The definition stands before the statement that the part is in, with its comments, at the top level.
     """
-    if within.start == within.end:
+    selected = _without_spaces(analysis, within)
+    if selected.start == selected.end:
         return None
-    for piece, further in pieces_touching(analysis, within):
+    for piece, further in pieces_touching(analysis, Span(selected.start, selected.start)):  # a part is in one
         for command in commands(piece.items):
             for part in _parts(command.motion):
                 at = Span(part.span.start + further, part.span.end + further)
-                if _is_selected(analysis, at, within):
+                if at == selected:
                     return _extraction(analysis, part, at, piece.address + further)
     return None
 
 
-def _is_selected(analysis: Analysis, part: Span, within: Span) -> bool:
-    """Return whether a part is all that is selected, spaces around it aside."""
+def _without_spaces(analysis: Analysis, within: Span) -> Span:
     text = analysis.source.text[within.start : within.end]
     start = within.start + len(text) - len(text.lstrip())
-    return part == Span(start, start + len(text.strip()))
+    return Span(start, start + len(text.strip()))
 
 
 def _extraction(analysis: Analysis, part: syntax.Motion, at: Span, before: int) -> Extraction | None:

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
+from itertools import pairwise
 from operator import attrgetter
 
 from mlmg_lang.analysis import Analysis, InPieces
+from mlmg_lang.blocks import WholeBlock
 from mlmg_lang.diagnostics import has_errors
 from mlmg_lang.ide.rewriting import Edit
 from mlmg_lang.ide.touching import pieces_touching
@@ -29,7 +31,7 @@ def inlinings(analysis: Analysis, within: Span) -> Iterator[Inlining]:
     Nothing for definitions and uses with mistakes; nor for all uses of a script with a mistake in any definition, or
     with a statement that cannot be read.
     """
-    for piece, further in pieces_touching(analysis, within):
+    for piece, further in pieces_touching(analysis, Span(within.start, within.start)):  # a name is in one
         for item in piece.items:
             for use in _uses(item):
                 if _touches(use.node.name.span, further, within):
@@ -89,9 +91,18 @@ def _of_all(analysis: Analysis, let: syntax.Let) -> Iterator[Inlining]:
                 return
             edits.append(Edit(made.now(use.node.span), text))
     removal = Edit(_line_of(made.source, made.now(let.span)), "")
-    if not edits or any(_overlap(one, other) for one in edits for other in edits if one is not other):
+    if not edits or any(_overlap(one, other) for one, other in pairwise(_sorted(edits))):
         return
     yield Inlining(f"put in what `{let.name.text}` says everywhere, and take it out", _sorted([*edits, removal]))
+
+
+def _uses_of(made: InPieces, let: syntax.Let) -> Iterator[_Use]:
+    """Yield the names in a script that may be that of a definition, wherever it is used, and others beside them."""
+    name = normal(let.name.text)
+    for piece in made.pieces:
+        lines = piece.lines if isinstance(piece, WholeBlock) else (piece,)
+        if any(name in line.used or line.defining for line in lines):
+            yield from (use for item in piece.items if item is not let for use in _uses(item))
 
 
 def _sorted(edits: Iterable[Edit]) -> tuple[Edit, ...]:
