@@ -2,7 +2,7 @@
 # make test    all tests;  make edits: the language server after 10,000 random edits
 # make lint    style and who may import whom;  make types: mypy;  make bench: measurements beside peers
 # make pictures  the pictures of the README;  make recording: the session in it;  make grammars: what editors and the docs have of the grammar
-# make vsix    the extension for VS Code
+# make vsix    the extension for VS Code;  make test-vscode: tries it in a real one;  make screenshot: the picture of it
 
 PYTHON ?= python3
 VENV := .venv
@@ -50,6 +50,13 @@ vsix: $(VENV)/installed
 	$(BIN)/pip wheel --quiet --no-deps --wheel-dir lsp/editors/vscode/wheel .
 	cd lsp/editors/vscode && npm install --no-package-lock && npm test && npm run vsix
 	@echo "install it: code --install-extension dist/motion-script.vsix"
+
+# Both need code-server and Chromium as well: see "VS Code" in docs/editors.md.
+test-vscode: vsix
+	cd lsp/editors/vscode && npm run test:vscode
+
+screenshot: vsix
+	node docs/recording/vscode.mjs docs/vscode.png
 
 # The wheel, built and tested as it is installed, not the source tree.
 wheel: $(VENV)/test-tools

@@ -9,9 +9,16 @@ from pathlib import Path
 import pytest
 
 VSCODE = Path(__file__).parents[3] / "lsp" / "editors" / "vscode"
+PACKAGED = VSCODE.parents[2] / "dist" / "motion-script.vsix"
+VSCODE_NEEDS = {"CODE_SERVER": "code-server", "CHROMIUM": "chromium"}
 needs_tools = pytest.mark.skipif(
     shutil.which("npm") is None or not (VSCODE / "node_modules").is_dir(),
     reason="the extension's tools are not installed: `make vsix` installs them",
+)
+needs_vscode = pytest.mark.skipif(
+    not all(os.environ.get(name) or shutil.which(command) for name, command in VSCODE_NEEDS.items())
+    or not PACKAGED.is_file(),
+    reason="a real VS Code is tried by `make test-vscode` where code-server and Chromium are installed",
 )
 
 
@@ -36,3 +43,9 @@ def test_the_extension_is_packaged_with_all_that_it_needs_and_nothing_else(tmp_p
     grammars = {"syntaxes/motion-script.tmLanguage.json", "syntaxes/language-configuration.json"}
     wheels = {f"wheel/{wheel.name}" for wheel in (VSCODE / "wheel").glob("*.whl")}
     assert names == {"package.json", "readme.md", "LICENSE.txt", "dist/extension.js", *pages, *grammars, *wheels}
+
+
+@needs_tools
+@needs_vscode
+def test_in_a_real_vs_code_a_mistake_is_told_and_mended_names_are_offered_and_the_motion_is_shown() -> None:
+    npm("run", "test:vscode")
