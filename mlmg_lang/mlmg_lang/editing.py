@@ -84,8 +84,7 @@ def reread(before: InPieces, source: Source, edit: Edit) -> Spot:
 
 def braces_after(around: Around, lines: Sequence[Piece]) -> Around:
     """Return the braces around what comes after some lines; `around` are those around the first."""
-    marks = compress(map(attrgetter("marks"), lines), map(attrgetter("marks"), lines))
-    return after(around, chain.from_iterable(marks))
+    return after(around, chain.from_iterable(filter(None, map(attrgetter("marks"), lines))))
 
 
 class TooDeep(Exception):
