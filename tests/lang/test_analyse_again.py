@@ -268,3 +268,47 @@ def test_a_name_that_stands_for_a_graph_by_mistake_is_told_of_as_soon_as_it_is_d
     library = libraries["reference"]
     before = analyse(Source('let WALKS = IDLE\nWALK " for 2 sec\n'), library)
     check(before, 'let WALK = IDLE\nWALK " for 2 sec\n', library)
+
+
+LONG_BODY = "WALK for 2 sec\nIDLE for 2 sec\n" * 50
+
+
+def n_lines_kept(before: Analysis, again: Analysis) -> int:
+    """Return how many lines are the very same."""
+    kept = {id(line) for line in before.ready.lines}
+    return sum(id(line) in kept for line in again.ready.lines)
+
+
+def test_in_a_block_only_what_an_edit_touches_is_read_again(libraries: Mapping[str, Any]) -> None:
+    text = f"repeat 2 {{\n{LONG_BODY}}}\n"
+    before = analyse(Source(text), libraries["reference"])
+    again = check(before, text[:800] + text[800:].replace("for 2", "for 3", 1), libraries["reference"])
+    assert n_lines_kept(before, again) == len(before.ready.lines) - 1
+
+
+def test_a_brace_that_is_opened_and_closed_leaves_all_lines_as_they_were_but_for_its_neighbours(
+    libraries: Mapping[str, Any],
+) -> None:
+    library = libraries["reference"]
+    before = analyse(Source(LONG_BODY), library)
+    opened = check(before, f"repeat 2 {{\n{LONG_BODY}", library)
+    assert n_lines_kept(before, opened) == len(before.ready.lines) - 1
+    closed = check(opened, f"{opened.source.text}}}\n", library)
+    assert n_lines_kept(opened, closed) >= len(opened.ready.lines) - 1
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        ("Walk_02 for 2 sec", "Idle_02 for 2 sec"),
+        ("2: IDLE", "0: IDLE"),
+        ("repeat 3", "repeat 1"),
+        ("}\n|", "}\n\n|"),
+    ],
+)
+def test_in_a_block_a_command_does_something_else_where_something_else_comes_before_it(
+    libraries: Mapping[str, Any], old: str, new: str
+) -> None:
+    inner = "choose { 2: IDLE for 1 sec\nrepeat 3 {\nWALK or IDLE\n}\n| 1: end Upper-Body\n}\n"
+    text = f"repeat 2 {{\nWalk_02 for 2 sec\nUpper-Body SWING_HAND\n{inner}Upper-Body TALK\n}}\n"
+    check(analyse(Source(text), libraries["reference"]), text.replace(old, new, 1), libraries["reference"])
