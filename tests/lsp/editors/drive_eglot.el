@@ -1,6 +1,7 @@
 ;; What `drive_emacs.el' asks for, with eglot.
 (require 'eglot)
-(setq eglot-sync-connect 60)
+(setq eglot-sync-connect 60
+      jsonrpc-default-request-timeout 60)
 
 (defun drive-join ()
   "Have the server serve this buffer: what a command would do when it has ended, of which there are none."

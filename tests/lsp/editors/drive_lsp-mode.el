@@ -4,6 +4,7 @@
 (require 'lsp-mode)
 (require 'lsp-completion)
 (setq lsp-auto-guess-root t
+      lsp-response-timeout 60
       lsp-restart 'ignore
       lsp-diagnostics-provider :flymake
       lsp-enable-snippet nil)

@@ -100,9 +100,9 @@ end
 
 function does.format()
   if vim.lsp.buf.format then
-    vim.lsp.buf.format({ timeout_ms = 10000 })
+    vim.lsp.buf.format({ timeout_ms = 60000 })
   else
-    vim.lsp.buf.formatting_sync(nil, 10000)
+    vim.lsp.buf.formatting_sync(nil, 60000)
   end
 end
 
