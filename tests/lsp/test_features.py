@@ -98,9 +98,9 @@ def offered(client, *names: str):
 def test_there_is_more_to_read_of_what_is_chosen(client):
     opened(client, "")
     found = {one["label"]: one for one in client.ask_at("completion", URI, 0, 0)["items"]}
-    assert "Walk_01, " in client.ask("completionItem/resolve", found["WALK"])["documentation"]["value"]
-    assert "frames" in client.ask("completionItem/resolve", found["Walk_01"])["documentation"]["value"]
-    assert "joints: " in client.ask("completionItem/resolve", found["Upper-Body"])["documentation"]["value"]
+    assert "Walk_01, " in client.ask("completionItem/resolve", found["WALK"])["documentation"]
+    assert "frames" in client.ask("completionItem/resolve", found["Walk_01"])["documentation"]
+    assert "joints: " in client.ask("completionItem/resolve", found["Upper-Body"])["documentation"]
 
 
 def test_behind_a_quote_labels_have_quotes_too_for_what_is_written_is_compared_with_them(client):
