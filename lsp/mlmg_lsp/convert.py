@@ -13,7 +13,7 @@ from typing import Final
 from lsprotocol import types
 
 from mlmg_lang.diagnostics import Diagnostic, Severity
-from mlmg_lang.parsing import syntax
+from mlmg_lang.ide.links import use_leading_to
 from mlmg_lang.rules import page_of, read_rule
 from mlmg_lang.source import Source, Span
 from mlmg_lsp.documents import Snapshot
@@ -94,17 +94,35 @@ def diagnostics_of(snapshot: Snapshot) -> list[types.Diagnostic]:
     return [diagnostic_of(snapshot, one) for one in snapshot.analysis.diagnostics]
 
 
+def diagnostics_of_used(snapshot: Snapshot) -> dict[str, list[types.Diagnostic]]:
+    """Return what is wrong in the files that a script uses, where it is, by the names of the files."""
+    found: dict[str, list[types.Diagnostic]] = {}
+    for one in snapshot.analysis.diagnostics:
+        if one.span is not None and one.span.end > len(snapshot.analysis.source.text):
+            file, _ = snapshot.analysis.source.file(one.span.start)
+            use = _use_of(snapshot, one.span)
+            others = [*((label.span, label.message) for label in one.places), (use, "the file is used here")]
+            found.setdefault(file.name, []).append(_diagnostic(snapshot, one, one.span, others))
+    return found
+
+
 def diagnostic_of(snapshot: Snapshot, one: Diagnostic) -> types.Diagnostic:
     """Return a diagnostic. What is wrong in a file that the script uses is told where it is used."""
-    source, client = snapshot.analysis.source, snapshot.client
     span = one.span or Span(0, 0)
     others = [(label.span, label.message) for label in one.places]
-    if span.end > len(source.text):
+    if span.end > len(snapshot.analysis.source.text):
         others.insert(0, (span, one.message))
-        span = _use_of(snapshot)
+        span = _use_of(snapshot, span)
+    return _diagnostic(snapshot, one, span, others)
+
+
+def _diagnostic(
+    snapshot: Snapshot, one: Diagnostic, span: Span, others: Iterable[tuple[Span, str]]
+) -> types.Diagnostic:
+    client = snapshot.client
     related = [types.DiagnosticRelatedInformation(location_of(snapshot, at), said) for at, said in others]
     return types.Diagnostic(
-        range=range_of(source, span, client.encoding),
+        range=location_of(snapshot, span).range,
         message=message_of(one),
         severity=_SEVERITIES[one.severity],
         code=one.code,
@@ -134,11 +152,10 @@ def _description(code: str) -> types.CodeDescription | None:
     return None if path is None else types.CodeDescription(path.as_uri())
 
 
-def _use_of(snapshot: Snapshot) -> Span:
-    """Return where a script uses its first file."""
-    made = snapshot.analysis.made
-    uses = (item for piece in made.pieces for item in piece.defining if isinstance(item, syntax.Use))
-    return next((made.now(item.span) for item in uses), Span(0, 0))
+def _use_of(snapshot: Snapshot, span: Span) -> Span:
+    """Return where a script uses the file that a place is in, itself or by way of others."""
+    file, _ = snapshot.analysis.source.file(span.start)
+    return use_leading_to(snapshot.analysis, file.name) or Span(0, 0)
 
 
 # --- edits ---

@@ -132,6 +132,10 @@ class Documents:
         """Return an open text."""
         return self._open.get(uri)
 
+    def opened(self) -> dict[str, tuple[str, int]]:
+        """Return the URIs and versions of all open texts, by the names of their files."""
+        return {one.name: (one.uri, one.version) for one in self.all()}
+
     # --- what the client does ---
 
     def open(self, item: types.TextDocumentItem) -> Document:
@@ -204,7 +208,7 @@ class Documents:
             analysis,
             _against(analysis, document.shelved),
             self.client,
-            {one.name: (one.uri, one.version) for one in self.all()},
+            self.opened(),
             tuple(one.analysis for one in others if one.analysis is not None and one.ready.done()),
             document.kept,
         )

@@ -26,6 +26,7 @@ from mlmg_lsp.foresight import Foresight
 from mlmg_lsp.libraries import Shelf
 from mlmg_lsp.progress import Bar
 from mlmg_lsp.protocol import Protocol
+from mlmg_lsp.telling import Telling
 from mlmg_lsp.work import off_loop
 from mlmg_lsp.workspace import Settings, Workspace, folders_of
 from mlmg_runtime.errors import MlmgError
@@ -62,9 +63,11 @@ class MotionScriptServer(LanguageServer):
         self.orderly = False
         self.folders = Workspace(settings, shelf)
         self.documents = Documents(self._files_of, self._publish, warm, get_ahead)
+        self.telling = Telling(self._tell)
         self.foresight = Foresight(lambda: self._refresh("inlay_hint"), self._foresight_failed)
         self.executor = Executor(self, self.documents, self.snapshot)
         self._said: set[str] = set()
+        self._uris: dict[str, str] = {}
         self._tasks: set[asyncio.Future[Any]] = set()
 
     def _files_of(self, document: Document) -> Files:
@@ -146,7 +149,9 @@ class MotionScriptServer(LanguageServer):
 
     def opened(self, params: types.DidOpenTextDocumentParams) -> None:
         """Take in a text."""
-        self._find_library(self.documents.open(params.text_document))
+        document = self.documents.open(params.text_document)
+        self._uris[document.name] = document.uri
+        self._find_library(document)
 
     def changed(self, params: types.DidChangeTextDocumentParams) -> None:
         """Edit a text, and look again at those that use it."""
@@ -164,10 +169,11 @@ class MotionScriptServer(LanguageServer):
     def closed(self, params: types.DidCloseTextDocumentParams) -> None:
         """Let go of a text, with what was said of it."""
         uri = params.text_document.uri
+        document = self.documents.get(uri)
         self.documents.close(uri)
         self.foresight.forget(uri)
-        if not self.documents.client.pulls:
-            self.text_document_publish_diagnostics(types.PublishDiagnosticsParams(uri, []))
+        if document is not None:
+            self.telling.forget(document.name, self.documents.client.pulls)
         path = path_of(uri)
         if path is not None:
             self._used_changed(path)
@@ -264,17 +270,19 @@ class MotionScriptServer(LanguageServer):
     # --- what the client is told of unasked ---
 
     async def _publish(self, document: Document) -> None:
-        """Tell the client what there is to say of a text, if it does not ask for that."""
-        client = self.documents.client
-        if client.pulls or document.analysis is None:
+        """Tell the client what there is to say of a text, if it does not ask, and of the files that the text uses."""
+        if document.analysis is None:
             return
-        snapshot = Snapshot(document.uri, document.version, document.analysis, document.shelved, client)
-        from mlmg_lsp.convert import diagnostics_of
+        client, version = self.documents.client, document.version
+        snapshot = Snapshot(document.uri, version, document.analysis, document.shelved, client, self.documents.opened())
+        from mlmg_lsp.convert import diagnostics_of, diagnostics_of_used
 
-        found = await off_loop(lambda: diagnostics_of(snapshot))
-        self.text_document_publish_diagnostics(
-            types.PublishDiagnosticsParams(document.uri, found, version=snapshot.version)
-        )
+        own, used = await off_loop(lambda: (diagnostics_of(snapshot), diagnostics_of_used(snapshot)))
+        self.telling.take(document.name, version, own, used, client.pulls)
+
+    def _tell(self, name: str, found: list[types.Diagnostic], version: int | None) -> None:
+        uri = self._uris.get(name) or Path(name).as_uri()
+        self.text_document_publish_diagnostics(types.PublishDiagnosticsParams(uri, found, version=version))
 
     def _foresight_failed(self, error: Exception) -> None:
         message = f"What commands will play cannot be foreseen: {error!r}"

@@ -335,7 +335,7 @@ def test_used_files_count_as_they_stand_in_the_editor_and_on_disk(start, tmp_pat
     client.open(used.as_uri(), "let stroll = WLAK for 3 sec\n")
     client.edit(used.as_uri(), 2, {"text": "let stroll = WLAK for 4 sec\n"})
     (wrong,) = client.diagnostics(user)
-    assert wrong["range"]["start"] == {"line": 0, "character": 0}
+    assert wrong["range"]["start"] == {"line": 0, "character": 4}
     assert wrong["relatedInformation"][0]["location"]["uri"] == used.as_uri()
 
 

@@ -24,3 +24,18 @@ def document_links(analysis: Analysis) -> tuple[Link, ...]:
     named = made.gathered.used.named
     paths = (item.path for item in all_of(made.lines, "items") if isinstance(item, syntax.Use))
     return tuple(Link(made.places(path.span), named[path.span]) for path in paths if path.span in named)
+
+
+def use_leading_to(analysis: Analysis, file: str) -> Span | None:
+    """Return the path in a script by which it uses a file, itself or by way of others; None if it does not."""
+    made = analysis.made
+    uses: dict[str, list[tuple[Span, str]]] = {}
+    for path, name in made.gathered.used.named.items():
+        span = made.places(path)
+        user, _ = made.source.file(span.start)
+        uses.setdefault(user.name, []).append((span, name))
+    leads = {file}
+    for _ in uses:  # files do not use each other in a circle, so a way is no longer than there are files
+        leads |= {user for user, paths in uses.items() if any(name in leads for _, name in paths)}
+    own = sorted(uses.get(made.source.name, ()))
+    return next((span for span, name in own if name in leads), None)

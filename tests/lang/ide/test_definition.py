@@ -7,7 +7,7 @@ import pytest
 
 from mlmg_lang.front_end import analyse_again
 from mlmg_lang.ide.definition import definition
-from mlmg_lang.ide.links import document_links
+from mlmg_lang.ide.links import document_links, use_leading_to
 from mlmg_lang.ide.occurrences import Place
 from mlmg_lang.source import Source, Span
 
@@ -135,3 +135,11 @@ def test_links_are_the_paths_that_lead_to_files(marked):
         ('"g.ms"', "g.ms"),
         ('"h.ms"', "h.ms"),
     ]
+
+
+def test_the_use_that_leads_to_a_file_is_known_be_it_by_way_of_others(marked: Callable[..., Any]) -> None:
+    files = {"fine": "let a = WALK\n", "more": 'use "deep.ms"\n', "deep": "let b = WALK\n"}
+    analysis = marked('use "fine.ms"\n\nuse "more.ms"\na\nb\n', **files).analysis
+    found = {name: use_leading_to(analysis, f"{name}.ms") for name in (*files, "none")}
+    said = {name: span and analysis.source.slice(span) for name, span in found.items()}
+    assert said == {"fine": '"fine.ms"', "more": '"more.ms"', "deep": '"more.ms"', "none": None}

@@ -1,0 +1,85 @@
+"""What is wrong in a file that a script uses is told in that file too."""
+
+import pytest
+
+PUSHED = {"textDocument": {"publishDiagnostics": {"relatedInformation": True}}}
+PULLING = {
+    "textDocument": {"diagnostic": {}, "publishDiagnostics": {"relatedInformation": True}},
+    "workspace": {"diagnostics": {"refreshSupport": True}},
+}
+WRONG = "let stroll = WLAK for 3 sec\n"
+RIGHT = "let stroll = WALK for 3 sec\n"
+
+
+@pytest.fixture
+def used(tmp_path):
+    path = tmp_path / "moves" / "used.ms"
+    path.parent.mkdir()
+    path.write_text("# 😀\n" + WRONG, encoding="utf-8")
+    return path
+
+
+def begun(start, capabilities):
+    client = start()
+    client.initialize(capabilities)
+    return client
+
+
+def changed(client, path, text: str) -> None:
+    path.write_text(text, encoding="utf-8")
+    client.notify("workspace/didChangeWatchedFiles", {"changes": [{"uri": path.as_uri(), "type": 2}]})
+
+
+def codes(found) -> list[tuple[str, int]]:
+    return [(one["code"], one["range"]["start"]["line"]) for one in found]
+
+
+@pytest.mark.parametrize("capabilities", [PUSHED, PULLING], ids=["pushed", "pulled"])
+def test_it_is_shown_there_until_it_is_mended(start, tmp_path, used, capabilities):
+    client, user = begun(start, capabilities), (tmp_path / "user.ms").as_uri()
+    client.open(user, '\nuse "moves/used.ms"\nstroll\n')
+    (found,) = client.diagnostics(used.as_uri())
+    assert (found["code"], found["range"]["start"]) == ("MS021", {"line": 1, "character": 13})
+    (where,) = (one for one in found["relatedInformation"] if one["message"] == "the file is used here")
+    assert (where["location"]["uri"], where["location"]["range"]["start"]) == (user, {"line": 1, "character": 4})
+    changed(client, used, RIGHT)
+    assert client.diagnostics(used.as_uri()) == []
+
+
+@pytest.mark.parametrize("way", ["edit", "close"])
+def test_it_is_taken_back_when_no_script_uses_the_file_any_more(start, tmp_path, used, way):
+    client, users = begun(start, PUSHED), [(tmp_path / name).as_uri() for name in ("a.ms", "b.ms")]
+    for user in users:
+        client.open(user, 'use "moves/used.ms"\nstroll\n')
+        assert codes(client.diagnostics(user)) == [("MS021", 0)]
+    assert codes(client.diagnostics(used.as_uri())) == [("MS021", 1)]
+    for user in users:
+        if way == "edit":
+            client.edit(user, 2, {"text": "IDLE\n"})
+        else:
+            client.notify("textDocument/didClose", {"textDocument": {"uri": user}})
+    while client.diagnostics(used.as_uri()):
+        pass
+
+
+def test_in_an_open_file_it_is_shown_once_with_what_only_its_user_can_know(start, tmp_path, used):
+    client, user = begun(start, PUSHED), (tmp_path / "user.ms").as_uri()
+    client.open(used.as_uri(), WRONG)
+    assert ("MS021", 0) in codes(client.diagnostics(used.as_uri()))
+    client.open(user, 'use "moves/used.ms"\nlet stroll = IDLE\nstroll\n')
+    client.diagnostics(user)
+    found = codes(client.diagnostics(used.as_uri()))
+    assert found.count(("MS021", 0)) == 1
+    assert ("MS050", 0) in found
+    client.edit(used.as_uri(), 2, {"text": "let amble = WALK for 3 sec\n"})
+    while {"MS021", "MS050"} & {code for code, _ in codes(client.diagnostics(used.as_uri()))}:
+        pass
+
+
+def test_the_use_that_leads_to_the_file_is_underlined_be_it_by_way_of_another(start, tmp_path, used):
+    (used.parent / "more.ms").write_text('use "used.ms"\n', encoding="utf-8")
+    (tmp_path / "fine.ms").write_text("let fine = WALK\n", encoding="utf-8")
+    client, user = begun(start, PUSHED), (tmp_path / "user.ms").as_uri()
+    client.open(user, 'use "fine.ms"\nuse "moves/more.ms"\nstroll\nfine\n')
+    assert ("MS021", 1) in codes(client.diagnostics(user))
+    assert codes(client.diagnostics(used.as_uri())) == [("MS021", 1)]
