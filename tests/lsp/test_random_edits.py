@@ -51,6 +51,7 @@ class Editor:
         methods = ("semanticTokens/full", "documentSymbol", "foldingRange")
         numbers = [(method, self.client.begin(f"textDocument/{method}", asked)) for method in methods]
         found = {method: self.client.outcome(number)["result"] for method, number in numbers}
+        found["semanticTokens/full"].pop("resultId")  # every answer has its own
         if "diagnostic" in WAYS[self.encoding].get("textDocument", {}):
             found["diagnostics"] = self.client.ask("textDocument/diagnostic", asked)["items"]
         else:
