@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 
 import numpy as np
@@ -15,13 +16,13 @@ from mlmg_runtime.errors import MlmgError
 from mlmg_runtime.library import Library
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class LibraryFacts:
     """Answers `ide.hover.Anatomy` and `ide.definition.Origins`.
 
     Attributes
     ----------
-    configuration : the file that the library was built from; None if it is not known. It is read when it is asked for.
+    configuration : the file that the library was built from; None if it is not known. It is read when first needed.
     """
 
     library: Library
@@ -49,7 +50,7 @@ class LibraryFacts:
 
     def tag(self, tag: str) -> tuple[Place, ...]:
         """Return the lines of the configuration that give a tag to motions."""
-        file = self._read()
+        file = self._file
         tables = {} if file is None else file.document.get("tags", {})
         keys = [
             ("tags", graph, motion)
@@ -57,22 +58,38 @@ class LibraryFacts:
             for motion, tags in (motions.items() if isinstance(motions, dict) else ())
             if isinstance(tags, list) and tag in tags
         ]
-        return tuple(place for key in keys if (place := _place(file, key)) is not None)
+        return tuple(place for key in keys if (place := self._place(key)) is not None)
 
     def graph(self, graph: str) -> Place | None:
         """Return the line of the configuration where a graph is described."""
-        file = self._read()
+        file = self._file
         tables = [] if file is None else file.document.get("graph", [])
         named = (at for at, table in enumerate(tables) if isinstance(table, dict) and table.get("name") == graph)
         at = next(named, None)
-        return None if at is None else _place(file, ("graph", at, "name"))
+        return None if at is None else self._place(("graph", at, "name"))
 
-    def _read(self) -> TomlFile | None:
+    @cached_property
+    def _file(self) -> TomlFile | None:
         """Return the configuration as it is now; None if it cannot be read."""
         try:
             return None if self.configuration is None else read_toml(self.configuration)
         except (MlmgError, OSError):
             return None
+
+    @cached_property
+    def _source(self) -> Source:
+        """Return the text of the configuration, with its own line ends, which count."""
+        assert self._file is not None
+        return Source(self._file.path.read_bytes().decode("utf-8-sig"), str(self._file.path.resolve()))
+
+    def _place(self, key: tuple[str | int, ...]) -> Place | None:
+        """Return the line on which a key stands."""
+        line = None if self._file is None else self._file.lines.get(key)
+        if line is None:
+            return None
+        text = self._source.text
+        starts = (*self._source.line_starts[line - 1 : line + 1], len(text) + 1)
+        return Place(self._source.name, Span(starts[0], starts[0] + len(text[starts[0] : starts[1]].rstrip("\r\n"))))
 
 
 def configuration_of(library: Library) -> Path | None:
@@ -83,14 +100,3 @@ def configuration_of(library: Library) -> Path | None:
     beside = (library.path.with_suffix(".toml"), library.path.with_name("library.toml"))
     known = beside if library.configuration is None else (library.configuration,)
     return next((path for path in known if path.is_file()), None)
-
-
-def _place(file: TomlFile | None, key: tuple[str | int, ...]) -> Place | None:
-    """Return the line on which a key stands."""
-    line = None if file is None else file.lines.get(key)
-    if file is None or line is None:
-        return None
-    text = file.path.read_bytes().decode("utf-8-sig")  # with its own line ends, which count
-    starts = (*Source(text).line_starts, len(text) + 1)
-    start = starts[line - 1]
-    return Place(str(file.path.resolve()), Span(start, start + len(text[start : starts[line]].rstrip("\r\n"))))

@@ -21,7 +21,7 @@ from mlmg_lang.libraries import SETTINGS
 from mlmg_lsp.client import client_from
 from mlmg_lsp.documents import Document, Documents, Snapshot, Superseded, path_of
 from mlmg_lsp.executing import Executor
-from mlmg_lsp.features import COMMANDS, FEATURES, INLAY_HINT, RESOLVING, answer_named, get_ahead, warm
+from mlmg_lsp.features import COMMANDS, FEATURES, INLAY_HINT, RESOLVING, WORKSPACE_SYMBOL, answer_named, get_ahead, warm
 from mlmg_lsp.foresight import Foresight
 from mlmg_lsp.libraries import Shelf
 from mlmg_lsp.progress import Bar
@@ -363,6 +363,7 @@ def build_server(settings: Settings, shelf: Shelf) -> MotionScriptServer:
     for method, name in RESOLVING:
         server.feature(method)(_of_item(server, name))
     server.feature(types.TEXT_DOCUMENT_INLAY_HINT)(_of_hints(server))
+    server.feature(types.WORKSPACE_SYMBOL)(_of_all_texts(server))
     return server
 
 
@@ -384,6 +385,19 @@ def _of_hints(server: MotionScriptServer) -> Callable[[Any], Any]:
         kinds = server.folders.settings.hints
         outlook = await server.foresight.of(snapshot) if kinds & {"motions", "arrivals"} else None
         return await off_loop(lambda: answer_named(INLAY_HINT)(snapshot, params, outlook, kinds))
+
+    return handler
+
+
+def _of_all_texts(server: MotionScriptServer) -> Callable[[Any], Any]:
+    """Return what looks for names in all open texts; one that is edited meanwhile is left out."""
+
+    async def handler(params: types.WorkspaceSymbolParams) -> Any:
+        snapshots = []
+        for document in server.documents.all():
+            with suppress(JsonRpcContentModified):
+                snapshots.append(await server.snapshot(document.uri))
+        return await off_loop(lambda: answer_named(WORKSPACE_SYMBOL)(snapshots, params))
 
     return handler
 

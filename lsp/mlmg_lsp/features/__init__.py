@@ -91,6 +91,9 @@ COMMANDS: Final[Mapping[str, str]] = {
 INLAY_HINT: Final = "inlay_hint.inlay_hint"
 """What answers for hints, which waits for more than a text."""
 
+WORKSPACE_SYMBOL: Final = "workspace_symbol.workspace_symbol"
+"""What looks for names in all open texts."""
+
 RESOLVING: Final[tuple[tuple[str, str], ...]] = (
     (types.COMPLETION_ITEM_RESOLVE, "completion.resolve"),
     (types.CODE_ACTION_RESOLVE, "code_action.resolve"),
@@ -114,7 +117,7 @@ def warm() -> None:
     from mlmg_lang.source import Source
     from mlmg_lsp.nothing import Nothing
 
-    for name in (*(name for _, _, name in FEATURES), *(name for _, name in RESOLVING), INLAY_HINT):
+    for name in (*(name for _, _, name in FEATURES), *(name for _, name in RESOLVING), INLAY_HINT, WORKSPACE_SYMBOL):
         answer_named(name)
     before = analyse(Source("let a = B for 1 sec\nrepeat 2 {\nA with\n}\n"), Nothing())
     _ = before.ready

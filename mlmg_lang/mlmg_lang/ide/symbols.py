@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from enum import StrEnum
+from itertools import chain
 from typing import Final
 
 from mlmg_lang.analysis import Analysis
@@ -69,22 +70,42 @@ def piece_symbols(piece: Statement, text: str) -> tuple[Symbol, ...]:
     return tuple(_Outliner(Source(text), -piece.address).items(piece.items))
 
 
-def workspace_symbols(analyses: Iterable[Analysis], query: str) -> list[Found]:
+@dataclass(frozen=True, slots=True)
+class LibraryName:
+    """A tag or a motion of a library."""
+
+    name: str
+    is_tag: bool
+
+
+def workspace_symbols(
+    analyses: Iterable[Analysis], query: str, libraries: Iterable[LibraryName] = (), most: int | None = None
+) -> list[Found | LibraryName]:
     """Return the definitions of several scripts whose names have the letters of a query, the likeliest first.
 
     A file that several of the scripts are, or use, is listed once.
+
+    Parameters
+    ----------
+    libraries : further names to look among. most : so many at most, the likeliest.
     """
-    defined = (found for analysis in analyses for found in _definitions(analysis))
-    once = {(found.file, found.symbol.selection): found for found in defined}
-    return matching(query, once.values(), lambda found: found.symbol.name)
+    defined = ((analysis, let) for analysis in analyses for let in analysis.made.gathered.definitions.lets.values())
+    named: Iterable[tuple[Analysis, syntax.Let] | LibraryName] = chain(defined, libraries)
+    once: dict[object, Found | LibraryName] = {}
+    for one in matching(query, named, lambda one: one.name if isinstance(one, LibraryName) else one[1].name.text):
+        found = one if isinstance(one, LibraryName) else _defined(*one)
+        key = found if isinstance(found, LibraryName) else (found.file, found.symbol.selection)
+        once.setdefault(key, found)
+        if most is not None and len(once) >= most:
+            break
+    return list(once.values())
 
 
-def _definitions(analysis: Analysis) -> Iterator[Found]:
-    """Yield the definitions of a script; places are counted from the beginning of the file that they are in."""
-    source = analysis.source
-    for let in analysis.definitions.lets.values():
-        file, base = source.file(let.span.start)
-        yield Found(_Outliner(source, -base, base).let(let), file.name)
+def _defined(analysis: Analysis, addressed: syntax.Let) -> Found:
+    """Return a definition of a script; places are counted from the beginning of the file that it is in."""
+    source, let = analysis.source, analysis.made.now(addressed)
+    file, base = source.file(let.span.start)
+    return Found(_Outliner(source, -base, base).let(let), file.name)
 
 
 @dataclass(frozen=True, slots=True)

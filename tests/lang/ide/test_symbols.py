@@ -6,7 +6,7 @@ from hypothesis import strategies as st
 from mlmg_lang.catalog import Catalog
 from mlmg_lang.diagnostics import Diagnostic
 from mlmg_lang.front_end import analyse, analyse_again
-from mlmg_lang.ide.symbols import Symbol, document_symbols, workspace_symbols
+from mlmg_lang.ide.symbols import Found, LibraryName, Symbol, document_symbols, workspace_symbols
 from mlmg_lang.source import Source
 
 TEXTS = st.text(alphabet='let G(x)={repeat 2choose}|1:\n;use "a.ms"end', max_size=80)
@@ -86,7 +86,8 @@ def test_after_an_edit_symbols_are_those_of_the_text_afresh(before: str, new: st
 def test_definitions_of_several_scripts_are_found_by_their_letters(reference: Catalog) -> None:
     one = analyse(Source("let WALK_BY = WALK\nlet BOW_LOW = IDLE", "one.ms"), reference)
     other = analyse(Source("let BYE = IDLE\n", "other.ms"), reference)
-    assert [(found.symbol.name, found.file) for found in workspace_symbols([one, other], "by")] == [
+    told = workspace_symbols([one, other], "by")
+    assert [(found.symbol.name, found.file) for found in told if isinstance(found, Found)] == [
         ("BYE", "other.ms"),
         ("WALK_BY", "one.ms"),
     ]
@@ -97,5 +98,15 @@ def test_a_definition_in_a_used_file_has_its_place_there_and_is_listed_once() ->
     using = 'use "gestures.ms"\nWAVE_BACK(IDLE)'
     scripts = [analyse(Source(text), files=OneFile()) for text in (using, f"IDLE\n{using}")]
     (found,) = workspace_symbols(scripts, "wave")
+    assert isinstance(found, Found)
     assert found.file == "gestures.ms"
     assert (found.symbol.selection.start, found.symbol.detail) == (8, "x with Sub WAVE_HAND")
+
+
+def test_names_of_libraries_are_looked_among_too_and_only_the_likeliest_are_returned() -> None:
+    script = analyse(Source("let slow_walk = WALK\nlet walk_off = WALK", "one.ms"))
+    names = [LibraryName("WALK", True), LibraryName("Walk_01", False)]
+    found = workspace_symbols([script], "walk", names)
+    told = [one.name if isinstance(one, LibraryName) else one.symbol.name for one in found]
+    assert told == ["walk_off", "WALK", "Walk_01", "slow_walk"]
+    assert workspace_symbols([script], "walk", names, most=2) == found[:2]
