@@ -85,6 +85,7 @@ class Document:
     kept: dict[str, Any] = field(default_factory=dict)
     task: asyncio.Task[None] | None = None
     finding: asyncio.Task[None] | None = None
+    ahead: asyncio.Task[None] | None = None
 
     @property
     def source(self) -> Source:
@@ -114,7 +115,7 @@ class Documents:
         ----------
         files : says where a text finds the files that it uses.
         told : is called with each new analysis. get_ready : is called once, before the first.
-        get_ahead : is called with a text that has been opened, when there is nothing else to do.
+        get_ahead : is called with a text that has been opened, beside all else.
         """
         self.client = Client()
         self._files = files
@@ -171,7 +172,7 @@ class Documents:
         if document is not None:
             unsettle()
             _supersede(document)
-            for task in (document.task, document.finding):
+            for task in (document.task, document.finding, document.ahead):
                 if task is not None:
                     task.cancel()
 
@@ -248,13 +249,17 @@ class Documents:
             raise
         document.analysis, document.stale = analysis, False
         ready.set_result(analysis)
-        await self._told(document)
-        await off_loop(lambda: analysis.ready)
         if analysis.made.serial == 0:  # made afresh, so that nearly all of it will stay
             settle()
-            if not document.kept:
-                snapshot = await self.snapshot(document.uri)
-                await off_loop(lambda: self._get_ahead(snapshot))
+        if document.ahead is None:
+            document.ahead = asyncio.ensure_future(self._look_ahead(await self.snapshot(document.uri)))
+        await self._told(document)
+        await off_loop(lambda: analysis.ready)
+
+    async def _look_ahead(self, snapshot: Snapshot) -> None:
+        """Find out what takes long the first time; later edits leave nearly all of it as it is."""
+        await off_loop(lambda: self._get_ahead(snapshot))
+        settle()
 
     def _work(self, document: Document) -> Callable[[], Analysis]:
         """Return what is to be done, with all that it needs at hand: what it would ask may change meanwhile."""

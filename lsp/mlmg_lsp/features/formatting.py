@@ -15,7 +15,7 @@ from mlmg_lsp.documents import Snapshot
 
 
 def get_ahead(snapshot: Snapshot) -> None:
-    """Find out what takes long of a text the first time, so that it is known when it is asked for."""
+    """Find out what takes long of a text the first time."""
     for _ in _changes(snapshot, range(len(snapshot.analysis.source.line_starts))):
         pass
 

@@ -47,6 +47,11 @@ class _Outlined:
     n_lines: int
 
 
+def get_ahead(snapshot: Snapshot) -> None:
+    """Find out what takes long of a text the first time."""
+    _parts(snapshot)
+
+
 def document_symbol(snapshot: Snapshot, _params: types.DocumentSymbolParams) -> Written:
     """Return the outline of a script."""
     line, found = 0, list[Json]()

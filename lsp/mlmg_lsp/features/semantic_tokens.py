@@ -47,6 +47,11 @@ class _Sent:
     data: list[int]
 
 
+def get_ahead(snapshot: Snapshot) -> None:
+    """Find out what takes long of a text the first time."""
+    _parts(snapshot)
+
+
 def full(snapshot: Snapshot, _params: types.SemanticTokensParams) -> Written:
     """Return what each word of a script is."""
     sent = _now(snapshot)
@@ -73,12 +78,17 @@ def within(snapshot: Snapshot, params: types.SemanticTokensRangeParams) -> Writt
 
 def _now(snapshot: Snapshot) -> _Sent:
     """Return the tokens of a text under a name that no other answer has."""
+    sent = _Sent(uuid4().hex, _joined(_parts(snapshot)))
+    snapshot.kept["sent tokens"] = sent
+    return sent
+
+
+def _parts(snapshot: Snapshot) -> list[_Numbers]:
     kept = {id(one.part): one for one in snapshot.kept.get("token numbers", ())}
     encoding = snapshot.client.encoding
     numbers = [kept.get(id(part)) or _numbers(part, encoding) for part in _painting(snapshot).parts]
-    sent = _Sent(uuid4().hex, _joined(numbers))
-    snapshot.kept["token numbers"], snapshot.kept["sent tokens"] = numbers, sent
-    return sent
+    snapshot.kept["token numbers"] = numbers
+    return numbers
 
 
 def _painting(snapshot: Snapshot) -> semantics.Painting:
