@@ -31,6 +31,7 @@ class Client:
     resolves_edits : whether it asks for the edit of a code action when that is chosen.
     progress, configuration, watches : whether it can be asked for these.
     shows : whether it can be asked to show a document.
+    offers : whether messages that it shows may offer something by a button, without keeping a person from writing on.
     refreshed : of what it can be told to ask again, by the names of its capabilities.
     """
 
@@ -49,6 +50,7 @@ class Client:
     configuration: bool = False
     watches: bool = False
     shows: bool = False
+    offers: bool = False
     refreshed: frozenset[str] = frozenset()
 
 
@@ -83,6 +85,7 @@ def client_from(capabilities: types.ClientCapabilities) -> Client:
         configuration=bool(has("workspace.configuration")),
         watches=bool(has("workspace.did_change_watched_files.dynamic_registration")),
         shows=bool(has("window.show_document.support")),
+        offers=_is_mapping_with(has("experimental"), "offers"),
         refreshed=frozenset(name for name in _REFRESHED if has(f"workspace.{name}.refresh_support")),
     )
 
@@ -90,6 +93,10 @@ def client_from(capabilities: types.ClientCapabilities) -> Client:
 def encoding_from(offered: Any) -> Encoding:
     """Return the first known of the encodings that a client offers; without one, what all have to know."""
     return next((_ENCODINGS[name] for name in map(str, map(_plain, offered)) if name in _ENCODINGS), "utf-16")
+
+
+def _is_mapping_with(found: Any, name: str) -> bool:
+    return isinstance(found, Mapping) and found.get(name) is True
 
 
 def _plain(encoding: Any) -> Any:

@@ -24,6 +24,7 @@ from mlmg_lsp.executing import Executor
 from mlmg_lsp.features import COMMANDS, FEATURES, INLAY_HINT, RESOLVING, WORKSPACE_SYMBOL, answer_named, get_ahead, warm
 from mlmg_lsp.foresight import Foresight
 from mlmg_lsp.libraries import Shelf
+from mlmg_lsp.offering import offer_demo
 from mlmg_lsp.progress import Bar
 from mlmg_lsp.protocol import Protocol
 from mlmg_lsp.telling import Telling
@@ -247,7 +248,7 @@ class MotionScriptServer(LanguageServer):
         try:
             shelved = await self.folders.find(document, bar.report, lambda: bar.begin("Loading the library"))
             if shelved is None:
-                self._say_once(types.MessageType.Info, _NO_LIBRARY)
+                self._soon(self._tell_no_library(document))
             else:
                 self._said.clear()
         except (MlmgError, OSError) as error:
@@ -261,6 +262,18 @@ class MotionScriptServer(LanguageServer):
         if is_another and document.begun:
             self.documents.analyse(document, afresh=True)
             self._refresh()
+
+    async def _tell_no_library(self, document: Document) -> None:
+        folder = self.folders.folder_of(document)
+        if not self.documents.client.offers or document.path is None or (folder / SETTINGS).exists():
+            self._say_once(types.MessageType.Info, _NO_LIBRARY)
+        elif _NO_LIBRARY not in self._said:
+            self._said.add(_NO_LIBRARY)
+            try:
+                if await offer_demo(self, _NO_LIBRARY, folder):
+                    self._look_again()
+            except OSError as error:
+                self._say_once(types.MessageType.Warning, f"{folder / SETTINGS} cannot be written: {error.strerror}")
 
     def _say_once(self, kind: types.MessageType, message: str) -> None:
         if message not in self._said:

@@ -133,9 +133,13 @@ class Workspace:
             return named
         if self.given.library is not None:
             return Path.cwd() / named
+        return self.folder_of(document) / named
+
+    def folder_of(self, document: Document) -> Path:
+        """Return the folder that a text is in the workspace by; without one, that in which it is."""
         place = self.place_of(document)
         own = [root for root in self._roots.values() if place.is_relative_to(root)]
-        return max(own, key=lambda root: len(root.parts), default=place.parent) / named
+        return max(own, key=lambda root: len(root.parts), default=place.parent)
 
 
 def folders_of(params: types.InitializeParams) -> list[str]:

@@ -255,6 +255,28 @@ def test_each_root_has_its_library(start, tmp_path, demo_library):
     assert "No library is named" in client.wait_for("window/showMessage")["message"]
 
 
+def test_a_client_that_shows_buttons_offers_the_demo_library(start, tmp_path):
+    client = start("--stdio")
+    client.answer_with("window/showMessageRequest", {"title": "Use the demo library"})
+    client.initialize(PUSHED | {"experimental": {"offers": True}}, rootUri=tmp_path.as_uri())
+    script = (tmp_path / "a.ms").as_uri()
+    client.open(script, "WLAK")
+    assert "No library is named" in client.wait_for("window/showMessageRequest")["message"]
+    while not (found := client.diagnostics(script)):
+        pass
+    assert found[0]["code"] == "MS021"
+    assert (tmp_path / "mlmg.toml").read_text("utf-8") == 'library = "demo"\n'
+
+
+def test_nothing_is_offered_that_would_write_over_a_file(start, tmp_path):
+    (tmp_path / "mlmg.toml").write_text("# mine\n", encoding="utf-8")
+    client = start("--stdio")
+    client.initialize(PUSHED | {"experimental": {"offers": True}}, rootUri=tmp_path.as_uri())
+    client.open((tmp_path / "a.ms").as_uri(), "WLAK")
+    assert "No library is named" in client.wait_for("window/showMessage")["message"]
+    assert (tmp_path / "mlmg.toml").read_text("utf-8") == "# mine\n"
+
+
 def test_a_client_sets_the_library_and_may_set_another(start, tmp_path, demo_library):
     client = start("--stdio")
     options = {"library": str(demo_library.path)}

@@ -10,6 +10,7 @@ import {
   RevealOutputChannelOn,
   type ShowDocumentParams,
   State,
+  type StaticFeature,
 } from "vscode-languageclient/node";
 
 import { Endings } from "./endings";
@@ -33,6 +34,16 @@ class Client extends LanguageClient {
     }
   }
 }
+
+/** Tells the server that its messages can have buttons: here they keep nobody from writing on. */
+const OFFERS: StaticFeature = {
+  fillClientCapabilities: (capabilities) => {
+    capabilities.experimental = { offers: true };
+  },
+  initialize: () => undefined,
+  getState: () => ({ kind: "static" }),
+  clear: () => undefined,
+};
 
 /** Starts again a server that has ended, unless it ends too often. What cannot be written to it, it has ended already. */
 class Again implements ErrorHandler {
@@ -97,7 +108,8 @@ export class Server {
   private async startAnew(): Promise<void> {
     await this.end();
     if (!vscode.workspace.isTrusted) {
-      this.lacks("No server is started before the folder is trusted.", TRUST);
+      const what = "No server is started before the folder is trusted.";
+      this.needs(vscode.LanguageStatusSeverity.Warning, what, [TRUST]);
       return;
     }
     const said = settings();
@@ -115,6 +127,7 @@ export class Server {
 
   private async start(program: string, said: Settings): Promise<void> {
     const client = this.clientOf(program, said);
+    client.registerFeature(OFFERS);
     client.failed = () => {
       if (this.client === client) {
         this.lacks(`${program} lsp could not be started, or ends again and again; the log says why.`, SHOW_LOG, RESTART);
@@ -166,16 +179,21 @@ export class Server {
   /** Says what is missing, and what one can do; again whenever a command needs it. */
   private lacks(what: string, ...ways: vscode.Command[]): void {
     const again = this.missing !== undefined;
+    this.needs(vscode.LanguageStatusSeverity.Error, what, ways);
+    if (!again) {
+      this.missing?.();
+    }
+  }
+
+  private needs(severity: vscode.LanguageStatusSeverity, what: string, ways: readonly vscode.Command[]): void {
     this.log.appendLine(what);
     this.status.busy = false;
-    this.status.severity = vscode.LanguageStatusSeverity.Error;
+    this.status.severity = severity;
     this.status.text = what;
     this.status.detail = undefined;
     this.status.command = ways[0];
     this.missing = () => void offer(what, ways);
-    if (!again) {
-      this.missing();
-    }
+    void vscode.commands.executeCommand("setContext", "motionScript.running", false);
   }
 }
 
