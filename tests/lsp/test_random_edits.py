@@ -32,12 +32,14 @@ class Editor:
         self.client = start()
         self.client.initialize(WAYS[encoding] | {"general": {"positionEncodings": [encoding]}})
         self.uri, self.encoding, self.version = uri, encoding, 0
+        self.tokens: dict[str, Any] = {}
 
     def open(self, text: str) -> Any:
         """Show a text, in place of the one before; return what is said of it."""
         if self.version:
             self.client.notify("textDocument/didClose", {"textDocument": {"uri": self.uri}})
         self.version += 1
+        self.tokens = {}
         self.client.open(self.uri, text, self.version)
         return self.told()
 
@@ -48,16 +50,35 @@ class Editor:
     def told(self) -> dict[str, Any]:
         """Return tokens, symbols and diagnostics."""
         asked = {"textDocument": {"uri": self.uri}}
-        methods = ("semanticTokens/full", "documentSymbol", "foldingRange")
+        tokens = self.client.begin(*self.asking_for_tokens())
+        methods = ("documentSymbol", "foldingRange")
         numbers = [(method, self.client.begin(f"textDocument/{method}", asked)) for method in methods]
+        self.tokens = with_changes(self.tokens, self.client.outcome(tokens)["result"])
         found = {method: self.client.outcome(number)["result"] for method, number in numbers}
-        found["semanticTokens/full"].pop("resultId")  # every answer has its own
+        found["tokens"] = self.tokens["data"]
         if "diagnostic" in WAYS[self.encoding].get("textDocument", {}):
             found["diagnostics"] = self.client.ask("textDocument/diagnostic", asked)["items"]
         else:
             found["diagnostics"] = self.client.diagnostics(self.uri, self.version)
         self.client.forget()
         return found
+
+    def asking_for_tokens(self) -> tuple[str, Any]:
+        """Return the request for what has changed of the tokens; now and then, for all."""
+        asked: dict[str, Any] = {"textDocument": {"uri": self.uri}}
+        if "resultId" in self.tokens and self.version % 4:
+            return "textDocument/semanticTokens/full/delta", asked | {"previousResultId": self.tokens["resultId"]}
+        return "textDocument/semanticTokens/full", asked
+
+
+def with_changes(tokens: dict[str, Any], answer: dict[str, Any]) -> dict[str, Any]:
+    """Return the tokens that an answer stands for, which may be all of them or what has changed."""
+    if "data" in answer:
+        return answer
+    data = list(tokens["data"])
+    for edit in sorted(answer["edits"], key=lambda one: one["start"], reverse=True):
+        data[edit["start"] : edit["start"] + edit["deleteCount"]] = edit.get("data", [])
+    return {"data": data, "resultId": answer.get("resultId")}
 
 
 def sessions(n_edits: int) -> Iterator[tuple[int, int]]:
