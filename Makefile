@@ -1,5 +1,5 @@
 # make demo    install, and play examples/tour.ms on the demo library into tour.bvh
-# make test    all tests;  make edits: the language server after 10,000 random edits
+# make test    all tests;  make edits: the language server after 10,000 random edits;  make soak: its memory after 100,000
 # make lint    style and who may import whom;  make types: mypy;  make bench: measurements beside peers
 # make pictures  the pictures of the README;  make recording: the session in it;  make grammars: what editors and the docs have of the grammar
 # make vsix    the extension for VS Code;  make test-vscode: tries it in a real one;  make screenshot: the picture of it
@@ -8,7 +8,7 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 
-.PHONY: demo test edits lint types bench pictures recording grammars vsix wheel clean
+.PHONY: demo test edits soak lint types bench pictures recording grammars vsix wheel clean
 
 demo: $(VENV)/installed
 	$(BIN)/mlmgc examples/tour.ms -o tour.bvh --report tour.json
@@ -20,6 +20,10 @@ test: $(VENV)/test-tools
 # After each edit, what the language server says is compared with what a fresh one says; a quarter of an hour of a core.
 edits: $(VENV)/test-tools
 	$(BIN)/pytest -n auto tests/lsp/test_random_edits.py --edits 10000
+
+# Whether the memory of the language server grows over 100,000 edits; about an hour of a core.
+soak: $(VENV)/bench-tools
+	$(BIN)/python benchmarks/soak_lsp.py
 
 lint: $(VENV)/lint-tools
 	$(BIN)/ruff check .

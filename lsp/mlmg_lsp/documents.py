@@ -94,9 +94,9 @@ class Document:
 
 
 def path_of(uri: str) -> Path | None:
-    """Return the path that a URI stands for; None if it is no file's."""
+    """Return the path that a URI stands for; None if it is no file's, or no file could have it."""
     path = to_fs_path(uri) if uri.startswith("file:") else None
-    return None if path is None else Path(path)
+    return None if path is None or "\0" in path else Path(path)
 
 
 class Documents:

@@ -41,8 +41,11 @@ class LibraryFacts:
         return dict(zip(own.motions, map(int, numbers), strict=True))
 
     def motion(self, motion: str) -> Place | None:
-        """Return the file of a motion's clip; None if it is not there (any more)."""
-        source = self.library.source(motion)
+        """Return the file of a motion's clip; None if it is not there (any more), or the library cannot be read now."""
+        try:
+            source = self.library.source(motion)
+        except (MlmgError, OSError):
+            return None
         if source is None or self.configuration is None:
             return None
         path = self.configuration.parent / source

@@ -59,8 +59,8 @@ class Protocol(LanguageServerProtocol):
         """Handle a message. One that cannot be understood is passed over; if it asks for an answer, it is told so."""
         try:
             raw = json.loads(body)
-        except ValueError as error:
-            _log.warning("a message that is no JSON was passed over: %s", error)
+        except (ValueError, RecursionError) as error:
+            _log.warning("a message that is no JSON, or too deep, was passed over: %s", error)
             return
         if not isinstance(raw, dict):
             _log.warning("a message that is no object was passed over")

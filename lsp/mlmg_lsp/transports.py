@@ -18,7 +18,8 @@ if TYPE_CHECKING:
     from websockets.asyncio.server import ServerConnection
 
 _LENGTH: Final = re.compile(rb"content-length:\s*(\d+)\s*", re.IGNORECASE)
-_MOST_READ: Final = 1 << 30
+_MOST_READ: Final = 1 << 28
+"""So long may a message be, in bytes; what announces a longer one is no message."""
 _CHUNK: Final = 1 << 16
 
 
@@ -105,7 +106,8 @@ async def _read_head(reader: StreamReader) -> int | None:
             await reader.readexactly(error.consumed)
             continue
         if found := _LENGTH.search(line):
-            length = min(int(found[1][:12]), _MOST_READ)
+            length = int(found[1]) if len(found[1]) < 12 else 0
+            length = length if length <= _MOST_READ else 0
         elif not line.strip() and length:
             return length
 

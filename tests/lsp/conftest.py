@@ -7,7 +7,7 @@ import os
 import subprocess
 import sys
 from collections.abc import Callable, Iterator, Mapping
-from contextlib import suppress
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from queue import Queue
 from threading import Thread
@@ -148,19 +148,19 @@ class Client:
         return self.process.wait(WAIT_S)
 
 
-@pytest.fixture
-def start(tmp_path: Path, demo_library: Library) -> Iterator[Callable[..., Client]]:
-    """Return a function: options of `mlmg lsp` -> a client of a new process. Without any, the demo library is used."""
+@contextmanager
+def starting(folder: Path, library: Path) -> Iterator[Callable[..., Client]]:
+    """Give a function: options of `mlmg lsp` -> a client of a new process. Without any, a library is used."""
     started: list[subprocess.Popen[bytes]] = []
 
     def begin(*options: str) -> Client:
-        words = options or ("--library", str(demo_library.path))
+        words = options or ("--library", str(library))
         environment = {name: value for name, value in os.environ.items() if name != "MLMG_LIBRARY"}
         process = subprocess.Popen(
             [sys.executable, "-m", "mlmg_lang.commands.mlmg", "lsp", *words],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
-            cwd=tmp_path,
+            cwd=folder,
             env=environment,
         )
         started.append(process)
@@ -174,3 +174,17 @@ def start(tmp_path: Path, demo_library: Library) -> Iterator[Callable[..., Clien
             if stream is not None and not stream.closed:
                 with suppress(BrokenPipeError):
                     stream.close()
+
+
+@pytest.fixture
+def start(tmp_path: Path, demo_library: Library) -> Iterator[Callable[..., Client]]:
+    """Return a function: options of `mlmg lsp` -> a client of a new process. Without any, the demo library is used."""
+    with starting(tmp_path, demo_library.path) as begin:
+        yield begin
+
+
+@pytest.fixture(scope="module")
+def start_for_all(tmp_path_factory: pytest.TempPathFactory, demo_library: Library) -> Iterator[Callable[..., Client]]:
+    """Return the same for clients that all tests of a module share."""
+    with starting(tmp_path_factory.mktemp("all"), demo_library.path) as begin:
+        yield begin

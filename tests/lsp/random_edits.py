@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import random
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple, TypeAlias
 
 LINES = (
@@ -47,6 +47,7 @@ BLOCKS = (
     "let stroll(t) = WALK for t\nrepeat 2 {\n    stroll(2 sec)\n    choose { IDLE | TALK }\n}\n",
     "repeat 2 {\n\tlet z = WALK\n\tz for 1 sec\n}\nz\n",
 )
+WRITTEN = (*LINES, *BLOCKS, *BLOCKS)
 WORDS = (
     *(
         "WALK",
@@ -73,7 +74,6 @@ ODD = (
 )
 USED = "let of_used = WALK or IDLE\nlet also_of_used = WLAK\n"
 """What the file `used.ms` beside a script says."""
-_MOST_CHARACTERS = 2_500
 _UNITS = {"utf-8": ("utf-8", 1), "utf-16": ("utf-16-le", 2), "utf-32": ("utf-32-le", 4)}
 _LINE_END = re.compile("\r\n|\r|\n")
 
@@ -110,9 +110,10 @@ def as_sent(text: str, edit: Edit, encoding: str) -> list[dict[str, Any]]:
 
 def position(text: str, offset: int, encoding: str) -> dict[str, int]:
     """Return an offset as the protocol has it."""
-    lines = _LINE_END.split(text[:offset])
+    n_lines = text.count("\n", 0, offset) + text.count("\r", 0, offset) - text.count("\r\n", 0, offset)
+    start = 1 + max(text.rfind("\n", 0, offset), text.rfind("\r", 0, offset))
     codec, n_bytes = _UNITS[encoding]
-    return {"line": len(lines) - 1, "character": len(lines[-1].encode(codec)) // n_bytes}
+    return {"line": n_lines, "character": len(text[start:offset].encode(codec)) // n_bytes}
 
 
 def difference(text: str, other: str) -> Edit:
@@ -134,13 +135,29 @@ def _in_line_end(text: str, offset: int) -> bool:
     return text[max(offset - 1, 0) : offset + 1] == "\r\n"
 
 
+def _can_be_sent(text: str, edit: Edit) -> bool:
+    """Return whether the protocol can name all places of an edit: what is put in may make a CRLF around one."""
+    for change in edit:
+        if not change.whole and (_in_line_end(text, change.start) or _in_line_end(text, change.end)):
+            return False
+        text = after(text, (change,))
+    return True
+
+
 class Author:
     """Someone who edits a text at random, always the same for the same seed."""
 
-    def __init__(self, seed: int, most_characters: int = _MOST_CHARACTERS, text: str | None = None) -> None:
-        """Begin with a text, or with a few random lines."""
+    def __init__(
+        self, seed: int, text: str | None = None, written: Sequence[str] = WRITTEN, n_lines: tuple[int, int] = (0, 80)
+    ) -> None:
+        """Begin with a text, or with a few random lines.
+
+        Parameters
+        ----------
+        written : lines, and blocks of them. n_lines : the fewest that the text has in the long run, and the most.
+        """
         self._draw = random.Random(seed)
-        self._most = most_characters
+        self._written, self._n_lines = written, n_lines
         self.text = "".join(self._lines(self._draw.randrange(40))) if text is None else text
         self._cursor = 0
         self._typed = ""
@@ -163,11 +180,21 @@ class Author:
         """Make one edit and return it."""
         kinds = [kind for _, kind in self._kinds]
         kind = self._draw.choices(kinds, [weight for weight, _ in self._kinds])[0]
-        made = self._shorten() if len(self.text) > self._most else kind()
-        if kind not in (self._undo, self._redo):
+        fewest, most = self._n_lines
+        n_lines = self.text.count("\n") + self.text.count("\r") - self.text.count("\r\n")
+        made = self._shorten() if n_lines > most else self._lengthen(fewest - n_lines) if n_lines < fewest else kind()
+        made = made if _can_be_sent(self.text, made) else difference(self.text, after(self.text, made))
+        if made and kind not in (self._undo, self._redo):
             self._done = [*self._done[-30:], self.text]
             self._undone = []
         self.text = after(self.text, made)
+        return made
+
+    def take_back(self, text: str) -> Edit:
+        """Make another text of it, as when a file is restored."""
+        made = difference(self.text, text)
+        self._done, self._undone, self._typed = [], [], ""
+        self.text = text
         return made
 
     # --- places ---
@@ -195,14 +222,14 @@ class Author:
         return starts[first], starts[last] if last < len(starts) else len(self.text)
 
     def _lines(self, n_lines: int) -> list[str]:
-        return [self._draw.choice(BLOCKS if self._draw.random() < 0.15 else LINES) for _ in range(n_lines)]
+        return [self._draw.choice(self._written) for _ in range(n_lines)]
 
     # --- edits ---
 
     def _type(self) -> Edit:
         """Type one key more of a line."""
         if not self._typed:
-            self._typed = self._draw.choice(LINES)
+            self._typed = self._draw.choice(self._written)
             self._at()
         at = min(self._cursor, len(self.text))
         at -= _in_line_end(self.text, at)
@@ -212,7 +239,7 @@ class Author:
 
     def _insert(self) -> Edit:
         at = self._at()
-        return (Change(at, at, self._draw.choice((*WORDS, *LINES))),)
+        return (Change(at, at, self._draw.choice((*WORDS, *self._written))),)
 
     def _delete(self) -> Edit:
         return (Change(*self._stretch(self._draw.choice((1, 1, 3, 20))), ""),)
@@ -268,10 +295,10 @@ class Author:
         return tuple(Change(at, at, sign) for at in reversed(begins))
 
     def _rename(self) -> Edit:
-        """Write another word in all places of one."""
+        """Write another word in the first places of one."""
         old, new = self._draw.sample(WORDS[:22], 2)
         found = [match.start() for match in re.finditer(re.escape(old), self.text)]
-        return tuple(Change(at, at + len(old), new) for at in reversed(found))
+        return tuple(Change(at, at + len(old), new) for at in reversed(found[:20]))
 
     def _flip(self) -> Edit:
         """Write all line ends otherwise."""
@@ -300,8 +327,12 @@ class Author:
         return (Change(0, len(self.text), text, whole=self._draw.random() < 0.5),)
 
     def _shorten(self) -> Edit:
-        """Cut a third of a text that has become too long for its author."""
+        """Cut a quarter of a text that has become too long for its author."""
         starts = self._line_starts()
-        first = self._draw.randrange(len(starts))
-        end = starts[min(first + len(starts) // 3 + 1, len(starts) - 1)]
-        return (Change(min(starts[first], end), max(end, starts[first]), ""),) if len(starts) > 4 else self._afresh()
+        first = self._draw.randrange(len(starts) * 3 // 4)
+        return (Change(starts[first], starts[first + len(starts) // 4], ""),)
+
+    def _lengthen(self, n_lines: int) -> Edit:
+        """Put in lines where a text has become too short."""
+        at = self._some_lines(1)[0]
+        return (Change(at, at, "".join(self._lines(n_lines))),)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import re
 import socket
+import struct
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -48,6 +49,12 @@ class Tcp:
             length = int(line.split(b":")[1]) if line.startswith(b"Content-Length") else length
         return json.loads(self.file.read(length))
 
+    def vanish(self) -> None:
+        """Go in the middle of a message, as when the machine is switched off."""
+        self.socket.sendall(b'Content-Length: 1000\r\n\r\n{"jsonrpc"')
+        self.socket.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))
+        self.close()
+
     def close(self) -> None:
         self.file.close()
         self.socket.close()
@@ -67,6 +74,10 @@ class Ws:
         message = self.connection.recv(timeout=60)
         assert isinstance(message, str)
         return json.loads(message)
+
+    def vanish(self) -> None:
+        self.connection.socket.shutdown(socket.SHUT_RDWR)
+        self.close()
 
     def close(self) -> None:
         self.stack.close()
@@ -92,3 +103,22 @@ def test_each_client_has_its_own_texts_and_one_that_leaves_leaves_the_others(add
     one.close()
     assert told(other, "WALK") == []
     other.close()
+
+
+def test_a_client_that_vanishes_while_it_is_answered_leaves_the_others_and_those_that_come(address):
+    way, port = address
+    clients = []
+    for _ in range(4):
+        clients.append({"tcp": Tcp, "ws": Ws}[way](port))
+        for message in MESSAGES:
+            clients[-1].send(message)
+        assert clients[-1].receive()["id"] == 1
+        if len(clients) < 3:
+            document = {"uri": URI, "languageId": "motion-script", "version": 1, "text": "WALK   for 3 sec\n" * 5_000}
+            asked = {"textDocument": {"uri": URI}, "options": {"tabSize": 4, "insertSpaces": True}}
+            clients[-1].send({"method": "textDocument/didOpen", "params": {"textDocument": document}})
+            clients[-1].send({"id": 2, "method": "textDocument/formatting", "params": asked})
+            clients[-1].vanish()
+    for client in clients[2:]:
+        assert told(client, "WLAK") == ["MS021"]
+        client.close()
