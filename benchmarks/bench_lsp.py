@@ -42,7 +42,7 @@ CLIENT: Final[Mapping[str, Any]] = {
         "completion": {"completionItem": {"snippetSupport": True}},
         "publishDiagnostics": {"relatedInformation": True, "tagSupport": {"valueSet": [1, 2]}},
     },
-    "workspace": {"workspaceEdit": {"documentChanges": True}},
+    "workspace": {"workspaceEdit": {"documentChanges": True}, "inlayHint": {"refreshSupport": True}},
 }
 Times = tuple[float, float]
 """How long a client waits, and how long the server computes meanwhile; 0 where that cannot be told."""
@@ -225,6 +225,7 @@ ASKED: Final = (
     Asking("signature help", "signatureHelp"),
     Asking("outline", "documentSymbol", nothing),
     Asking("folding", "foldingRange", nothing),
+    Asking("lenses", "codeLens", nothing),
     Asking("selection range", "selectionRange", lambda at: {"positions": [at]}),
     Asking("inlay hints of 60 lines", "inlayHint", lambda at: around(at, 60)),
     Asking("inlay hints of all", "inlayHint", lambda _: around(EVERYWHERE, N_ALL)),

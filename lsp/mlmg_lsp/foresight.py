@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import time
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final
@@ -18,6 +19,8 @@ if TYPE_CHECKING:
 
 _GRACE_S: Final = 0.1
 """So long it is waited for; what takes longer, the client is told of when it is there."""
+_QUIET_S: Final = 0.3
+"""So long there is to be no edit before what takes long is begun again."""
 _MOST_USES: Final = 200
 """So often ways between motions are kept for the next time; an editor stays open for weeks."""
 
@@ -28,12 +31,13 @@ class _Known:
 
     Attributes
     ----------
-    last : the last that was found out, and of which analysis. is_late : whether somebody has gone without.
+    last : the last that was found out, of which analysis, and how long that took, in seconds.
+    is_late : whether somebody has gone without.
     """
 
     analysis: Analysis
     task: asyncio.Task[Foreseen | None]
-    last: tuple[Foreseen, Analysis] | None
+    last: tuple[Foreseen, Analysis, float] | None
     is_late: bool = False
 
 
@@ -51,6 +55,7 @@ class Foresight:
         self._failed = failed
         self._known: dict[str, _Known] = {}
         self._travel: tuple[Shelved, MotionTravel, int] | None = None
+        self._hopeless: Shelved | None = None
         self._one_by_one = asyncio.Lock()
 
     async def of(self, snapshot: Snapshot) -> Foreseen | None:
@@ -59,7 +64,9 @@ class Foresight:
         A client that could not be told later waits until it is.
         """
         known = self._begun(snapshot)
-        wait = _GRACE_S if "inlay_hint" in snapshot.client.refreshed else None
+        wait = None
+        if "inlay_hint" in snapshot.client.refreshed:
+            wait = 0.0 if _takes_long(known) else _GRACE_S
         await asyncio.wait({known.task}, timeout=wait)
         if known.task.done():
             return None if known.task.cancelled() else known.task.result()
@@ -68,7 +75,7 @@ class Foresight:
             return None
         from mlmg_lang.ide.foreseen import still_foreseen
 
-        told, before = known.last
+        told, before, _ = known.last
         return await off_loop(lambda: still_foreseen(told, before, snapshot.analysis))
 
     def stop(self, uri: str) -> None:
@@ -97,17 +104,22 @@ class Foresight:
 
     async def _foresee(self, snapshot: Snapshot) -> Foreseen | None:
         shelved = snapshot.shelved
-        if shelved is None or snapshot.analysis.found.wrong:
+        if shelved is None or shelved is self._hopeless or snapshot.analysis.found.wrong:
             return None
+        known = self._known.get(snapshot.uri)
+        if known is not None and _takes_long(known):
+            await asyncio.sleep(_QUIET_S)
         async with self._one_by_one:
+            begin = time.monotonic()
             try:
                 told = await self._found_out(snapshot.analysis, shelved)
             except Exception as error:
+                self._hopeless = shelved
                 self._failed(error)
                 return None
         known = self._known.get(snapshot.uri)
         if known is not None and known.analysis is snapshot.analysis:
-            known.last = (told, snapshot.analysis)
+            known.last = (told, snapshot.analysis, time.monotonic() - begin)
             if known.is_late:
                 self._is_there()
         return told
@@ -132,6 +144,10 @@ class Foresight:
         _, travel, n_uses = self._travel
         self._travel = (shelved, travel, n_uses + 1)
         return travel
+
+
+def _takes_long(known: _Known) -> bool:
+    return known.last is not None and known.last[2] > _GRACE_S
 
 
 def _new_travel(shelved: Shelved) -> MotionTravel:

@@ -2,26 +2,25 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from lsprotocol import types
 
 from mlmg_lang.ide import lenses
 from mlmg_lsp.documents import Snapshot
+from mlmg_lsp.memory import undisturbed
 from mlmg_lsp.positions import position_from_offset
+from mlmg_lsp.written import Json, Written, written
 
 
-def code_lens(snapshot: Snapshot, _params: types.CodeLensParams) -> list[types.CodeLens]:
+def code_lens(snapshot: Snapshot, _params: types.CodeLensParams) -> Written:
     """Return what can be done; where it is done by `execute_command`."""
-    return [_lens(snapshot, one) for one in lenses.lenses(snapshot.analysis)]
+    with undisturbed():
+        return written([_lens(snapshot, one) for one in lenses.lenses(snapshot.analysis)])
 
 
-def _lens(snapshot: Snapshot, one: lenses.Lens) -> types.CodeLens:
-    at = types.Position(*position_from_offset(snapshot.analysis.source, one.span.start, snapshot.client.encoding))
-    about: dict[str, Any] = {"uri": snapshot.uri}
-    if one.about is not None:
-        about["position"] = {"line": at.line, "character": at.character}
+def _lens(snapshot: Snapshot, one: lenses.Lens) -> Json:
+    line, character = position_from_offset(snapshot.analysis.source, one.span.start, snapshot.client.encoding)
+    at: Json = {"line": line, "character": character}
+    about: Json = {"uri": snapshot.uri} if one.about is None else {"uri": snapshot.uri, "position": at}
+    command: Json = {"title": one.title, "command": f"mlmg.{one.deed.value}", "arguments": [about]}
     # A lens is shown above a line: where the command ends, which may be lines further on, makes no difference.
-    return types.CodeLens(
-        types.Range(at, at), types.Command(one.title, command=f"mlmg.{one.deed.value}", arguments=[about])
-    )
+    return {"range": {"start": at, "end": at}, "command": command}
