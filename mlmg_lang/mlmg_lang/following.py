@@ -26,8 +26,9 @@ def without_following(
     ----------
     said : of their meaning. misread : of their text.
     """
-    places = [one.span for one in misread if one.span is not None]
-    unsure = [one.span for one in misread if one.span is not None and not any(fix.safe for fix in one.fixes)]
+    wrong = [(one, one.span) for one in misread if one.severity is Severity.ERROR and one.span is not None]
+    places = [span for _, span in wrong]
+    unsure = [span for one, span in wrong if not any(fix.safe for fix in one.fixes)]
     mended = [line for line in _lines(items) if any(line.start <= place.start <= line.end for place in unsure)]
     for one in said:
         if (

@@ -279,6 +279,9 @@ def _graph_meant(name: syntax.Name, wrong: Sequence[Unbound], names: Names) -> s
 
 
 def _called(node: syntax.Call, name: syntax.Name, scope: Scope) -> Iterator[Unbound]:
+    if normal(name.text) in scope.parameters and group_of(node) is not None:
+        yield Unbound(_before_parenthesis(node, name))
+        return
     foreign = scope.open and not is_sub(name) and scope.names.graph(name.text) is None
     if foreign or scope.defines(name) or group_of(node) is None:
         yield Unbound(None)
@@ -424,6 +427,14 @@ def _beside_parameter(node: syntax.Qualified, name: syntax.Name) -> Diagnostic:
     message = f"`{node.graph.text}` is a parameter, not a graph: a word is missing before `{name.text}`"
     advice = f"for both at once, write `{script_name(node.graph.text)} with {script_name(name.text)}`"
     return Diagnostic("MS025", message, node.span, advice, fixes=(Fix(place, "with ", safe=False),))
+
+
+def _before_parenthesis(node: syntax.Call, name: syntax.Name) -> Diagnostic:
+    """Say what `x (TALK)` is in a definition, where `x` is a parameter."""
+    message = (
+        f"`{name.text}` is a parameter, which stands for a motion: it is no graph, and takes nothing in parentheses"
+    )
+    return Diagnostic("MS025", message, node.span, f"write `{script_name(name.text)}` alone, or a graph before the `(`")
 
 
 def _space_in_name(node: syntax.Qualified, meant: str) -> Diagnostic:

@@ -465,8 +465,9 @@ def test_what_a_definition_is_given_is_looked_up_where_it_is_given(reference: An
 
 
 def test_a_graph_cannot_be_given(codes: Codes, reference: Any) -> None:
-    assert codes("let A(g) = g (WALK)\nA(Upper-Body)", reference) == ["MS026"]
-    assert codes("let A(g) = g WALK\nA(Upper-Body)", reference) == ["MS026"]
+    assert codes("let A(g) = g (WALK)\nA(Upper-Body)", reference) == ["MS025"]
+    assert codes("let A(g) = g(WALK, TALK)\nA(IDLE)", reference) == ["MS028"]
+    assert codes("let A(g) = g WALK\nA(Upper-Body)", reference) == ["MS025"]
     assert codes("let A(x) = x\nA(Upper-Body)", reference) == ["MS024"]
 
 
