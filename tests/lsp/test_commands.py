@@ -234,3 +234,17 @@ def test_a_command_that_is_not_as_it_should_be_is_refused(client):
 def test_commands_are_told_of_at_the_beginning(start):
     told = start().initialize()["capabilities"]["executeCommandProvider"]["commands"]
     assert told == ["mlmg.play", "mlmg.explain", "mlmg.candidates", "mlmg.rule"]
+
+
+def test_a_client_that_says_nothing_of_itself_is_asked_for_nothing_and_answered_all_the_same(start, script):
+    client = start()
+    client.initialize({})
+    uri, whole = script.as_uri(), {"start": {"line": 0, "character": 0}, "end": {"line": 9, "character": 0}}
+    client.open(uri, TEXT)
+    client.notify("workspace/didChangeConfiguration", {"settings": {"mlmg": {"inlayHints": {"units": False}}}})
+    assert client.ask("textDocument/inlayHint", {"textDocument": {"uri": uri}, "range": whole})
+    assert len(lenses(client, uri)) == 4
+    assert client.ask("workspace/executeCommand", command("play", uri=uri))["n_frames"]
+    assert client.ask("workspace/executeCommand", command("explain", uri=uri))["text"]
+    client.leave()
+    assert [one for one in client.rest() if "id" in one and "method" in one] == []
