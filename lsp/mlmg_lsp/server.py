@@ -207,6 +207,7 @@ class MotionScriptServer(LanguageServer):
             self._look_again()
             for document in self.documents.all():
                 self.documents.reconsider(document)
+            self._refresh()
 
     def files_changed(self, params: types.DidChangeWatchedFilesParams) -> None:
         """Look again at what files that have changed have to do with."""

@@ -255,6 +255,20 @@ def test_each_root_has_its_library(start, tmp_path, demo_library):
     assert "No library is named" in client.wait_for("window/showMessage")["message"]
 
 
+def test_a_client_that_asks_is_told_to_ask_again_when_it_sets_the_library(start, tmp_path, demo_library):
+    client = start("--stdio")
+    client.answer_with("workspace/configuration", [{}])
+    refreshed = {"diagnostics": {"refreshSupport": True}, "configuration": True}
+    client.initialize({"textDocument": {"diagnostic": {}}, "workspace": refreshed}, rootUri=tmp_path.as_uri())
+    client.open(URI, "WLAK")
+    assert client.ask("textDocument/diagnostic", {"textDocument": {"uri": URI}})["items"] == []
+    client.answer_with("workspace/configuration", [{"library": str(demo_library.path)}])
+    client.notify("workspace/didChangeConfiguration", {"settings": None})
+    client.wait_for("workspace/diagnostic/refresh")
+    found = client.ask("textDocument/diagnostic", {"textDocument": {"uri": URI}})["items"]
+    assert [one["code"] for one in found] == ["MS021"]
+
+
 def test_a_client_that_shows_buttons_offers_the_demo_library(start, tmp_path):
     client = start("--stdio")
     client.answer_with("window/showMessageRequest", {"title": "Use the demo library"})
