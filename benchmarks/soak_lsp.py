@@ -57,6 +57,7 @@ METHODS = (
         "prepareRename",
     ),
 )
+CONTEXTS: Mapping[str, object] = {"codeAction": {"diagnostics": []}, "references": {"includeDeclaration": True}}
 
 
 def written() -> tuple[str, ...]:
@@ -101,9 +102,10 @@ class Editor:
         at = MADE["position"](self.author.text, offset, "utf-16")
         ends = {"start": at, "end": {"line": at["line"] + 3, "character": 0}}
         params = {"textDocument": {"uri": URI}, "position": at, "range": ends, "positions": [at], "ch": "\n"}
-        params |= {"context": {"diagnostics": [], "includeDeclaration": True, "triggerKind": 1}, "newName": "anew"}
+        params |= {"newName": "anew"}
         params |= {"options": {"tabSize": 4, "insertSpaces": True}}
         method = self.draw.choice(METHODS)
+        params |= {"context": CONTEXTS[method]} if method in CONTEXTS else {}
         self.client.number += 1
         number = self.client.number
         self.client.send(id=number, method=f"textDocument/{method}", params=params)
