@@ -47,6 +47,7 @@ def run(arguments: argparse.Namespace) -> int:
 
     from mlmg_lsp import transports
     from mlmg_lsp.libraries import Shelf
+    from mlmg_lsp.memory import give_back
     from mlmg_lsp.server import build_server
     from mlmg_lsp.workspace import Settings
 
@@ -54,6 +55,7 @@ def run(arguments: argparse.Namespace) -> int:
     logging.getLogger("pygls").setLevel(logging.CRITICAL)
     # The thread that reads messages gets its turn sooner beside those that work.
     sys.setswitchinterval(0.001)
+    give_back()
     shelf = Shelf()
     settings = Settings(arguments.library, tuple(arguments.allow_use), arguments.position_encoding)
 
