@@ -3,7 +3,7 @@
 //     make screenshot
 //
 // What is shown is what the editor showed. It needs code-server and Chromium: see "VS Code" in docs/editors.md.
-import { inVSCode, missing, preview, run } from "../../lsp/editors/vscode/test/vscode.mjs";
+import { DEMO, inVSCode, missing, preview, run } from "../../lsp/editors/vscode/test/vscode.mjs";
 
 const SCRIPT = `# A stroll: she talks on her way, and waves.
 let STROLL = WALK or SWING_HAND
@@ -28,7 +28,7 @@ if (lacking !== undefined) {
   console.error(lacking);
   process.exit(1);
 }
-await inVSCode({ files: { "stroll.ms": SCRIPT }, open: "stroll.ms", settings: SETTINGS }, async (page) => {
+await inVSCode({ files: { ...DEMO, "stroll.ms": SCRIPT }, open: "stroll.ms", settings: SETTINGS }, async (page) => {
   await page.locator(".codelens-decoration", { hasText: "candidates" }).first().waitFor({ timeout: 60_000 });
   await run(page, "View: Toggle Primary Side Bar Visibility");
   await run(page, "Motion Script: Preview the Motion");

@@ -30,21 +30,23 @@ export function missing() {
   return gone.length === 0 ? undefined : `${gone.join(" and ")} cannot be found: see docs/editors.md`;
 }
 
+/** What names the demo library. */
+export const DEMO = { "mlmg.toml": 'library = "demo"\n' };
+
 /** Opens a folder in VS Code, with some files in it and one of them open; closes all when `work` on its page ends. */
-export async function inVSCode({ files, open, settings = {}, size = { width: 1280, height: 800 } }, work) {
+export async function inVSCode({ files, open, settings = {}, mlmg = join(ROOT, ".venv", "bin", "mlmg") }, work) {
   const home = await mkdtemp(join(tmpdir(), "vscode-"));
   const folder = join(home, "scripts");
   const user = join(home, "user");
   const ends = [() => rm(home, { recursive: true, force: true, maxRetries: 5 })];
   try {
-    await write(folder, { "mlmg.toml": 'library = "demo"\n', ...files });
+    await write(folder, files);
     await write(join(user, "User"), { "settings.json": JSON.stringify({ ...QUIET, ...settings }) });
-    const mlmg = join(ROOT, ".venv", "bin", "mlmg");
     await write(join(user, "Machine"), { "settings.json": JSON.stringify({ "mlmg.path": mlmg }) });
     const address = await serve(home, user, ends);
     const browser = await chromium.launch({ executablePath: chromiumHere(), args: LAUNCH });
     ends.push(() => browser.close());
-    const page = await browser.newPage({ viewport: size });
+    const page = await browser.newPage({ viewport: { width: 1280, height: 800 } });
     const opened = JSON.stringify([["openFile", `vscode-remote://${new URL(address).host}${join(folder, open)}`]]);
     await page.goto(`${address}/?folder=${encodeURIComponent(folder)}&payload=${encodeURIComponent(opened)}`);
     await page.locator(`.tab[aria-label^="${open}"]`).waitFor({ timeout: 120_000 });

@@ -2,12 +2,13 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { inVSCode, missing, preview, run } from "./vscode.mjs";
+import { DEMO, inVSCode, missing, preview, run } from "./vscode.mjs";
 
+const lens = ".codelens-decoration";
 const script = "# Somebody walks and talks.\nIdle_01 for 2 sec\nWALK with Uper-Body TALK for 6 sec\n";
 
 test("a mistake is underlined, told and mended, names are offered, and the motion is shown", { skip: missing() }, () =>
-  inVSCode({ files: { "stroll.ms": script }, open: "stroll.ms" }, async (page) => {
+  inVSCode({ files: { ...DEMO, "stroll.ms": script }, open: "stroll.ms" }, async (page) => {
     await page.locator(".squiggly-error").first().waitFor({ timeout: 60_000 });
     const wrong = page.locator(".view-line span", { hasText: /^Uper-Body$/ }).last();
     await wrong.hover();
@@ -17,7 +18,7 @@ test("a mistake is underlined, told and mended, names are offered, and the motio
     await page.locator(".action-widget", { hasText: "Write `Upper-Body`" }).waitFor();
     await page.keyboard.press("Enter");
     await page.locator(".squiggly-error").first().waitFor({ state: "detached" });
-    await page.locator(".codelens-decoration", { hasText: "candidates" }).first().waitFor();
+    await page.locator(lens, { hasText: "candidates" }).first().waitFor();
 
     await page.keyboard.press("Control+End");
     await page.keyboard.type("WALK with Upper-Body ");
@@ -29,5 +30,20 @@ test("a mistake is underlined, told and mended, names are offered, and the motio
     await run(page, "Motion Script: Preview the Motion");
     const shown = await preview(page);
     assert.match(await shown.locator("body").innerText(), /Full-Body/);
+  }),
+);
+
+test("a script without a library is offered the demo library, which is used at once", { skip: missing() }, () =>
+  inVSCode({ files: { "stroll.ms": "WALK for 6 sec\n" }, open: "stroll.ms" }, async (page) => {
+    await page.locator(".notification-toast").getByText("Use the demo library").click({ timeout: 60_000 });
+    await page.locator(lens, { hasText: "3 candidates on Full-Body" }).waitFor({ timeout: 60_000 });
+  }),
+);
+
+test("where there is no mlmg it is said, and one button leads to the setting", { skip: missing() }, () =>
+  inVSCode({ files: { "stroll.ms": "WALK\n" }, open: "stroll.ms", mlmg: "/nowhere/mlmg" }, async (page) => {
+    const said = page.locator(".notification-toast", { hasText: "There is no program /nowhere/mlmg" });
+    await said.getByText("Open the setting").click({ timeout: 60_000 });
+    await page.locator(".settings-editor", { hasText: "Path" }).waitFor();
   }),
 );
