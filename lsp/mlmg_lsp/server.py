@@ -295,7 +295,7 @@ class MotionScriptServer(LanguageServer):
         self.telling.take(document.name, version, own, used, client.pulls)
 
     def _tell(self, name: str, found: list[types.Diagnostic], version: int | None) -> None:
-        uri = self._uris.get(name) or Path(name).as_uri()
+        uri = self._uris[name] if name in self._uris else Path(name).as_uri()
         self.text_document_publish_diagnostics(types.PublishDiagnosticsParams(uri, found, version=version))
 
     def _foresight_failed(self, error: Exception) -> None:
