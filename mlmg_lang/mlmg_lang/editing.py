@@ -50,12 +50,14 @@ class Spot:
 
     Attributes
     ----------
+    around : the braces around it.
     first, end : the pieces that it was before: the first, and the one behind the last.
     kept : whether the first is still the same, and there only to see that nothing is joined to it.
     """
 
     source: Source
     tokens: tuple[Token, ...]
+    around: Around
     first: int
     end: int
     kept: bool
@@ -69,17 +71,17 @@ def reread(before: InPieces, source: Source, edit: Edit) -> Spot:
     end = min(bisect_right(starts, edit.end), len(lines))
     while True:
         spot = Source(source.text[starts[first] : starts[end] + edit.further], source.name)
-        tokens = tokenize(spot)
-        cuts = cut(tokens)
-        wider = _wider(lines, range(first, end), balance(tokens))
-        if wider is None and end < len(lines) and not cuts.closed:
-            wider = range(first, min(end + 2 * (end - first), len(lines)))
+        tokens, around = tokenize(spot), braces_after((), lines[:first])
+        cuts = cut(tokens, len(around))
+        wider = _wider(lines, range(first, end), balance(tokens, len(around)))
+        if wider is None and end < len(lines) and cuts.next != len(spot.text):
+            wider = range(first, end + 1)
         if wider is None:
             break
         first, end = wider.start, wider.stop
     new = cuts.starts[0] if cuts.starts else len(spot.text)
     kept = first <= last_whole and new == lines[first].size
-    return Spot(spot, tokens, first, end, kept)
+    return Spot(spot, tokens, around, first, end, kept)
 
 
 def braces_after(around: Around, lines: Sequence[Piece]) -> Around:
@@ -87,8 +89,8 @@ def braces_after(around: Around, lines: Sequence[Piece]) -> Around:
     return after(around, chain.from_iterable(filter(None, map(attrgetter("marks"), lines))))
 
 
-class TooDeep(Exception):
-    """Braces are nested so deep that what stands in them is left out."""
+class CutElsewhere(Exception):
+    """In other braces a script is cut into other pieces: one of them is no brace any longer, or there are too many."""
 
 
 def in_other_braces(
@@ -102,8 +104,8 @@ def in_other_braces(
 
     Raises
     ------
-    TooDeep
-        If they cannot be read in these.
+    CutElsewhere
+        If they are no pieces in these.
     """
     rest = lines[first:]
     for at in compress(range(first, len(lines)), map(attrgetter("depends"), rest)):
@@ -111,7 +113,7 @@ def in_other_braces(
             return
         line = read_in(lines[at], text_of(at), around)
         if line is None:
-            raise TooDeep
+            raise CutElsewhere
         yield at, line
         around = after(around, line.marks)
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from bisect import bisect_right
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from operator import attrgetter
@@ -18,6 +19,7 @@ from mlmg_lang.parsing.case import guess_case
 from mlmg_lang.parsing.lookalikes import opens_or_closes
 from mlmg_lang.parsing.nesting import Around
 from mlmg_lang.parsing.parse import read_marks
+from mlmg_lang.parsing.quotes import requoted
 from mlmg_lang.parsing.structure import check_definition, check_structure, misplaced
 from mlmg_lang.parsing.syntax import BrokenDefinition, Item, Let, Script, Use
 from mlmg_lang.parsing.tokenize import MAX_TOKENS, tokenize
@@ -198,8 +200,19 @@ def _defined(made: InPieces) -> Sequence[Diagnostic]:
     misread = [line for line in made.lines if line.misread and line.defining] if made.defined else []
     if not misread:
         return made.defined
-    items = tuple(all_of(misread, "defining"))
-    return tuple(without_following(made.defined, tuple(all_of(misread, "misread")), items))
+    misread.sort(key=attrgetter("address"))
+    return tuple(one for one in made.defined if not _follows(one, misread))
+
+
+def _follows(one: Diagnostic, misread: Sequence[Piece]) -> bool:
+    """Return whether it may follow from what is wrong with the text of the line it is in; these are by address."""
+    if one.span is None:
+        return False
+    at = bisect_right(misread, one.span.start, key=attrgetter("address")) - 1
+    line = misread[max(at, 0)]
+    if not line.address <= one.span.start < line.address + line.size:
+        return False
+    return not any(without_following((one,), line.misread, line.defining))
 
 
 def _told(question: Question, found: Found, made: InPieces) -> Analysis:
@@ -256,9 +269,9 @@ def _read_again(before: InPieces, source: Source) -> Change | None:
     from mlmg_lang.editing import Change, braces_after, edit_between, reread
 
     spot = reread(before, source, edit_between(before.source.text, source.text))
-    around, size = braces_after((), before.lines[: spot.first]), len(spot.source.text)
+    around, size = spot.around, len(spot.source.text)
     read = read_marks(spot.source, spot.tokens, around)
-    if opens_or_closes(spot.tokens) or read.deep:
+    if opens_or_closes(requoted(spot.tokens)) or read.deep:
         return None
     new = lines_of(size, spot.tokens, read, around, before.room)[int(spot.kept) :]
     first = spot.first + spot.kept
@@ -269,13 +282,13 @@ def _read_again(before: InPieces, source: Source) -> Change | None:
 
 
 def _braced_again(before: InPieces, change: Change, around: Around) -> Change | None:
-    """Return a change with what it makes of the lines behind it; None where they stand in too many braces.
+    """Return a change with what it makes of the lines behind it; None where these are cut elsewhere.
 
     Parameters
     ----------
     around : the braces around its first line.
     """
-    from mlmg_lang.editing import TooDeep, braces_after, in_other_braces
+    from mlmg_lang.editing import CutElsewhere, braces_after, in_other_braces
 
     made, behind = change.made, change.first + change.n_new
     now = braces_after(around, made.lines[change.first : behind])
@@ -284,7 +297,7 @@ def _braced_again(before: InPieces, change: Change, around: Around) -> Change | 
     starts, lines = made.places.starts, list(made.lines)
     try:
         found = list(in_other_braces(lines, behind, now, lambda at: made.source.text[starts[at] : starts[at + 1]]))
-    except TooDeep:
+    except CutElsewhere:
         return None
     for at, line in found:
         lines[at] = line

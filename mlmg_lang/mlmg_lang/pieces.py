@@ -91,7 +91,7 @@ class Piece:
     @cached_property
     def balance(self) -> Balance:
         """Return its parentheses that may have their partners in other pieces."""
-        return balance(self.tokens)
+        return balance(self.tokens, len(self.around))
 
     @cached_property
     def speaks(self) -> bool:
@@ -139,7 +139,7 @@ def lines_of(size: int, tokens: Sequence[Token], read: Read, around: Around = ()
     around : the braces that it stands in.
     address : of its beginning; in what is given, that is 0.
     """
-    bounds = [0, *(() if read.deep else cut(tokens).starts), size]
+    bounds = [0, *(() if read.deep else cut(tokens, len(around)).starts), size]
     wrong: list[list[Diagnostic]] = [[] for _ in bounds[1:]]
     for one in read.diagnostics:
         assert one.span is not None
@@ -154,11 +154,12 @@ def lines_of(size: int, tokens: Sequence[Token], read: Read, around: Around = ()
 
 
 def read_in(line: Piece, text: str, around: Around) -> Piece | None:
-    """Return a piece as it is in other braces; None if these are nested too deep for it."""
+    """Return a piece as it is in other braces; None if they are too many, or it is cut elsewhere then."""
     source = Source(text)
     tokens = tokenize(source)
     read = read_marks(source, tokens, around)
-    return None if read.deep else next(iter(lines_of(len(text), tokens, read, around, line.address)))
+    again, *others = lines_of(len(text), tokens, read, around, line.address)
+    return None if read.deep or others or again.balance != line.balance else again
 
 
 def _piece(

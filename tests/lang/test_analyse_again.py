@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from itertools import pairwise
 from pathlib import Path
 from runpy import run_path
 from typing import Any
@@ -13,6 +14,8 @@ from hypothesis import strategies as st
 
 from mlmg_lang.diagnostics import Diagnostic
 from mlmg_lang.front_end import Analysis, analyse, analyse_again
+from mlmg_lang.ide.folding import folds
+from mlmg_lang.ide.symbols import document_symbols
 from mlmg_lang.source import Source
 
 FOLDER = Path(__file__).parents[1]
@@ -22,6 +25,29 @@ STORED = [
     for path in sorted((FOLDER / folder).glob("*.ms"))
 ]
 STAGES = ("source", "tokens", "script", "expanded", "definitions", "plan", "resolved", "diagnostics")
+
+
+def edited(text: str, edit: tuple[int, int, str]) -> str:
+    at, n_removed, added = edit
+    at %= len(text) + 1
+    return text[:at] + added + text[at + n_removed :]
+
+
+def with_other_lines(text: str, edit: tuple[int, int, str]) -> str:
+    at, n_removed, added = edit
+    lines = text.splitlines(keepends=True)
+    at %= len(lines) + 1
+    return "".join((*lines[:at], added, *lines[at + n_removed :]))
+
+
+def before_line(text: str, edit: tuple[int, int, str]) -> str:
+    """Put a sign before a line, in place of some of its beginning."""
+    at, n_removed, added = edit
+    lines = text.splitlines(keepends=True) or [""]
+    at %= len(lines)
+    return "".join((*lines[:at], added, lines[at][n_removed:], *lines[at + 1 :]))
+
+
 LINES = (
     *("WALK for 10 sec\n", "WALK with Sub TALK for 10 sec\n", "IDLE\n", "IDLE for 3 sec\n", "WALK or IDLE\n"),
     *("Upper-Body TALK\n", "Upper-Body SWING_HAND\n", "Upper-Body Talk_02\n", "Upper-Body IDLE\n", "Walk_01\n"),
@@ -81,7 +107,65 @@ BITS = (
     *("/*", "*/", "// ", " -- ", "\uff08", "\uff09", "\uff5b", "\uff5d", "\uff1b", "\uff03", "\uff12", "loop 2 {\n"),
     *("repeat 2 {\n", "choose {\n", "with TALK\n", "WLAK\n", "walk01\n", "let x = WALK\n", "# mlmg: ignore[MS047]\n"),
 )
+JOINED = (
+    *("WALK\n", "WALK\n", "IDLE for 1 sec\n", "with Upper-Body TALK\n", "    or IDLE\n", "  for 2 sec\n", "(\n", ")\n"),
+    *("(WALK\n", "IDLE)\n", "let x = WALK\n", "    let f(p) = p\n", "let y = (IDLE\n", "x\n", "repeat 2\n", "{\n"),
+    *(
+        "    repeat 2 {\n",
+        "choose {\n",
+        "| IDLE\n",
+        "}\n",
+        "} # c\n",
+        "x } y\n",
+        "x } with (TALK\n",
+        "} }\n",
+        "wait 1 sec)\n",
+    ),
+    *(
+        "# c\n",
+        "    # repeat 2 {\n",
+        "// WALK\n",
+        "-- )\n",
+        "/* a\n",
+        "b */\n",
+        "\n",
+        "\t\n",
+        "\r\n",
+        '"WALK\n',
+        "f(WALK;\n",
+    ),
+)
+"""Lines that go on with others, or end what could."""
+SIGNS = (
+    *(
+        "#",
+        "# ",
+        "//",
+        "// ",
+        "-- ",
+        "/* ",
+        " */",
+        "\uff03",
+        "\uff0f\uff0f ",
+        "\uff0f\uff0a ",
+        " \uff0a\uff0f",
+        '"',
+        '" /* "',
+    ),
+    *("    ", "\n", "\r", "(", ")", "{", "}", "} ", "repeat 2 {", "let ", "with ", ";", "\uff08", "\uff5d"),
+)
+"""What joins lines, parts them, or takes them away, put into the midst of others."""
 EDITS = st.lists(st.tuples(st.integers(0, 10_000), st.integers(0, 9), st.sampled_from(("", *BITS))), max_size=8)
+JOINING_EDITS = st.lists(
+    st.one_of(
+        st.tuples(st.just(edited), st.tuples(st.integers(0, 500), st.integers(0, 4), st.sampled_from(("", *SIGNS)))),
+        st.tuples(st.just(before_line), st.tuples(st.integers(0, 30), st.integers(0, 4), st.sampled_from(SIGNS))),
+        st.tuples(
+            st.just(with_other_lines), st.tuples(st.integers(0, 30), st.integers(0, 2), st.sampled_from(("", *JOINED)))
+        ),
+    ),
+    max_size=8,
+)
 LINE_EDITS = st.lists(st.tuples(st.integers(0, 10_000), st.integers(0, 2), st.sampled_from(LINES)), max_size=6)
 DEFINING_EDITS = st.lists(
     st.tuples(st.integers(0, 10_000), st.integers(0, 2), st.sampled_from(("", *LINES, *DEFINING))), max_size=6
@@ -110,22 +194,19 @@ FILES = Used()
 def check(before: Analysis, text: str, library: Any, start: str | None = None) -> Analysis:
     """Return the analysis after an edit, when it has been compared with a fresh one."""
     again, fresh = analyse_again(before, Source(text)), analyse(Source(text), library, start, FILES)
+    assert extents(again) == extents(fresh)
     for stage in STAGES:
         assert getattr(again, stage) == getattr(fresh, stage), stage
+    assert folds(again) == folds(fresh)
+    assert document_symbols(again) == document_symbols(fresh)
     return again
 
 
-def edited(text: str, edit: tuple[int, int, str]) -> str:
-    at, n_removed, added = edit
-    at %= len(text) + 1
-    return text[:at] + added + text[at + n_removed :]
-
-
-def with_other_lines(text: str, edit: tuple[int, int, str]) -> str:
-    at, n_removed, added = edit
-    lines = text.splitlines(keepends=True)
-    at %= len(lines) + 1
-    return "".join((*lines[:at], added, *lines[at + n_removed :]))
+def extents(analysis: Analysis) -> tuple[list[str], list[int]]:
+    """Return the texts of the pieces, and where those begin that stand in no block."""
+    made = analysis.made
+    ends = pairwise(made.places.line_starts)
+    return [made.source.text[start:end] for start, end in ends], list(made.places.starts)
 
 
 @many
@@ -181,6 +262,40 @@ def test_after_other_definitions_all_is_as_if_analysed_afresh(
     for edit in edits:
         text = with_other_lines(text, edit)
         analysis = check(analysis, text, libraries[name])
+
+
+@many
+@given(lines=st.lists(st.sampled_from(JOINED), max_size=20), edits=JOINING_EDITS)
+def test_after_any_edits_lines_are_joined_and_parted_as_afresh(
+    lines: list[str], edits: list[tuple[Callable[[str, tuple[int, int, str]], str], tuple[int, int, str]]]
+) -> None:
+    text = "".join(lines)
+    analysis = analyse(Source(text))
+    for way, edit in edits:
+        text = way(text, edit)
+        analysis = check(analysis, text, None)
+
+
+STRAY = "WALK\nIDLE\n(WALK\nx } y\nIDLE)\nWALK\n"
+"""The brace parts the lines in the parentheses where it can close a block, and is only a mistake elsewhere."""
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        ("WALK\n    repeat 2 {\n  x\n", "WALK\n//    repeat 2 {\n  x\n"),
+        ("WALK\n    repeat 2 {\n  x\n", "WALK\n#    repeat 2 {\n  x\n"),
+        ("WALK\nIDLE\nTALK\n", "# WALK\nIDLE\nTALK\n"),
+        ("WALK\nIDLE\nTALK\n", "WALK\n\nTALK\n"),
+        ("WALK\n/ \uff0a\nTALK\n\uff0a\uff0f\nIDLE\n", "WALK\n\uff0f\uff0a\nTALK\n\uff0a\uff0f\nIDLE\n"),
+        ('WALK\n" /* "x\nIDLE\n */ \n', 'WALK\n" /* "x "\nIDLE\n */ \n'),
+        (f"# repeat 2 {{\n{STRAY}", f"repeat 2 {{\n{STRAY}"),
+        (f"repeat 2 {{\n{STRAY}", f"# repeat 2 {{\n{STRAY}"),
+        ('use "no"\n let x = IDLE\n', 'use "no"\n)et x = IDLE\n'),
+    ],
+)
+def test_a_line_goes_with_those_that_it_goes_with_afresh(old: str, new: str) -> None:
+    check(check(analyse(Source(old), None, None, FILES), new, None), old, None)
 
 
 @pytest.mark.parametrize("text", STORED)
@@ -257,9 +372,9 @@ def test_a_definition_that_has_no_sound_name_is_no_statement_however_its_script_
 ) -> None:
     library = libraries["reference"]
     before = analyse(Source("let A😀 = WALK\nlet B = IDLE\nTALK\n"), library)
-    plan = check(before, "let A😀 = WALK\nlet B = |IDLE\nTALK\n", library).plan
+    plan = check(before, "let A😀 = WALK\nlet B = =\nTALK\n", library).plan
     assert plan is not None
-    assert [statement.span.start for statement in plan.statements] == [14, 28]
+    assert [statement.span.start for statement in plan.statements] == [14, 24]
 
 
 def test_a_name_that_stands_for_a_graph_by_mistake_is_told_of_as_soon_as_it_is_defined(

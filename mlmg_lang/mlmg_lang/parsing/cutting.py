@@ -24,19 +24,24 @@ class Cuts:
     Attributes
     ----------
     starts : offsets, that of the first piece left out.
-    closed : whether a line that does not go on with another could begin a piece after the last token.
+    next : that of a piece which came after the last statement; None if that does not end with its line.
     """
 
     starts: tuple[int, ...]
-    closed: bool
+    next: int | None
 
 
-def cut(tokens: Sequence[Token]) -> Cuts:
-    """Return where a text may be cut. Every piece but the last has a token that is neither comment nor line end."""
+def cut(tokens: Sequence[Token], depth: int = 0) -> Cuts:
+    """Return where a text may be cut. Every piece but the last has a token that is neither comment nor line end.
+
+    Parameters
+    ----------
+    depth : how many blocks the text stands in.
+    """
     starts: list[int] = []
     end: int | None = None
     empty = True
-    meant = _meant(tokens)
+    meant = _meant(tokens, depth)
     for token, inside in zip(meant, inside_parentheses(meant), strict=True):
         kind = token.type
         if kind == "NEWLINE":
@@ -46,8 +51,7 @@ def cut(tokens: Sequence[Token]) -> Cuts:
             if end is not None and kind not in CONTINUES and kind != "OPEN":
                 starts.append(end)
             end, empty = None, False
-    closed = bool(tokens) and tokens[-1].type == "NEWLINE"
-    return Cuts(tuple(starts), closed)
+    return Cuts(tuple(starts), end)
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,11 +69,11 @@ class Balance:
     parts: bool
 
 
-def balance(tokens: Sequence[Token]) -> Balance:
-    """Return what parentheses are left without a partner in some whole lines."""
+def balance(tokens: Sequence[Token], depth: int = 0) -> Balance:
+    """Return what parentheses are left without a partner in some whole lines; `depth`: see `cut`."""
     n_closing = n_open = 0
     parts, first = False, True
-    for token in _meant(tokens):
+    for token in _meant(tokens, depth):
         kind = token.type
         if kind in ENDS_PARENTHESES or (first and kind in OPENS_STATEMENT):
             n_open, parts = 0, True
@@ -82,6 +86,6 @@ def balance(tokens: Sequence[Token]) -> Balance:
     return Balance(n_closing, n_open, parts)
 
 
-def _meant(tokens: Sequence[Token]) -> Sequence[Token]:
+def _meant(tokens: Sequence[Token], depth: int) -> Sequence[Token]:
     """Return the tokens that layout goes by."""
-    return without_strays(without_lone(as_meant(requoted(tokens))))
+    return without_strays(without_lone(as_meant(requoted(tokens))), depth)

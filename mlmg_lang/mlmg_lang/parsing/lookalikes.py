@@ -232,8 +232,8 @@ def _comment(span: Span, source: Source) -> Diagnostic:
 
 
 def opens_or_closes(tokens: Sequence[Token]) -> bool:
-    """Return whether there is a sign that could make a comment of other lines."""
-    return any(token.type in ("UNKNOWN", "UNCLOSED") and ("/*" in token.text or "*/" in token.text) for token in tokens)
+    """Return whether there is a sign that could make a comment of other lines, where quotes have been seen to."""
+    return any(token.type == "UNKNOWN" and ("/*" in token.text or "*/" in token.text) for token in _narrowed(tokens))
 
 
 def has_other_comments(tokens: Sequence[Token]) -> bool:
