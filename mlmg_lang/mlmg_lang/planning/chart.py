@@ -20,13 +20,13 @@ class Step:
     Attributes
     ----------
     before : the numbers of the steps after which this one may come; in a loop, later ones too.
-    outermost : the number of the step where the outermost loop around this one begins; its own, if there is none.
+    loops : the numbers of the steps where the loops around this one begin, the outermost first.
     again : the numbers of the steps where loops begin that may come right after this one.
     """
 
     statement: Leaf | None
     before: list[int]
-    outermost: int
+    loops: tuple[int, ...]
     again: list[int] = field(default_factory=list)
 
 
@@ -40,7 +40,7 @@ def chart(statements: Iterable[typed.Statement]) -> list[Step]:
 @dataclass(slots=True)
 class _Charter:
     steps: list[Step] = field(default_factory=list)
-    loops: list[int] = field(default_factory=list)
+    loops: tuple[int, ...] = ()
 
     def body(self, statements: Iterable[typed.Statement], before: list[int]) -> list[int]:
         """Add some statements; return after which steps one is done with them."""
@@ -52,9 +52,9 @@ class _Charter:
         match statement:
             case typed.Repeat(count, body):
                 head = self._add(None, before)
-                self.loops.append(head)
+                around, self.loops = self.loops, (*self.loops, head)
                 after = self.body(body, [head])
-                self.loops.pop()
+                self.loops = around
                 for last in after if count > 1 else ():
                     if last != head:
                         self.steps[head].before.append(last)
@@ -72,5 +72,5 @@ class _Charter:
 
     def _add(self, statement: Leaf | None, before: list[int]) -> int:
         number = len(self.steps)
-        self.steps.append(Step(statement, list(before), self.loops[0] if self.loops else number))
+        self.steps.append(Step(statement, list(before), self.loops))
         return number

@@ -49,11 +49,10 @@ class Walk:
     def back_to(self, number: int) -> int:
         """Return the step to begin again with when one has to be taken otherwise, and forget all from there.
 
-        That is the step itself, unless a loop around it has come round already: then it is where the outermost begins.
+        That is the step itself, unless loops around it have come round already with what comes of it: then it is where
+        the outermost of those begins. What comes before that does not hang on the step, and would only come out again.
         """
-        reached = [step for step in range(number, len(self.reached)) if self.left[step] is not None]
-        came_round = any(head < number for step in reached for head in self.steps[step].again)
-        first = self.steps[number].outermost if came_round else number
+        first = next((head for head in self.steps[number].loops if self._came_round(head, number)), number)
         while self.sound and self.sound[-1] > first:
             self.sound.pop()
         for later in range(first, len(self.steps)):
@@ -61,6 +60,10 @@ class Walk:
                 break
             self.entered[later] = self.left[later] = None
         return first
+
+    def _came_round(self, head: int, number: int) -> bool:
+        """Return whether what comes of a step in a loop may have come back to where that begins."""
+        return any(last >= number and self.left[last] is not None for last in self.steps[head].before)
 
     def _before(self, number: int) -> flow.State:
         """Return what may be playing before a step, as far as what comes before it has been reached.

@@ -121,7 +121,7 @@ def test_every_loop_knows_from_where_it_begins_again(body: list[typed.Statement]
 def test_the_steps_of_a_plain_script_follow_each_other() -> None:
     steps = chart([leaf(1), leaf(2), leaf(3)])
     assert [step.before for step in steps] == [[START], [0], [1]]
-    assert [step.outermost for step in steps] == [0, 1, 2]
+    assert [step.loops for step in steps] == [(), (), ()]
     assert all(step.again == [] for step in steps)
 
 
@@ -150,9 +150,9 @@ def test_an_empty_branch_lets_what_comes_before_through() -> None:
     assert charted([leaf(1), choose([leaf(2)], []), leaf(3)]) == {1: {START}, 2: {1}, 3: {1, 2}}
 
 
-def test_all_steps_in_loops_know_the_outermost() -> None:
+def test_all_steps_know_the_loops_around_them() -> None:
     steps = chart([leaf(1), repeat(2, leaf(2), repeat(2, leaf(3)), choose([leaf(4)])), repeat(1, leaf(5)), leaf(6)])
-    assert [step.outermost for step in steps] == [0, 1, 1, 1, 1, 1, 6, 6, 8]
+    assert [step.loops for step in steps] == [(), (), (1,), (1,), (1, 3), (1,), (), (6,), ()]
 
 
 def test_each_predecessor_is_named_once() -> None:
