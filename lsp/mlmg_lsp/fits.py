@@ -13,7 +13,7 @@ from mlmg_runtime.arrays import FloatArray
 from mlmg_runtime.library import Library
 from mlmg_runtime.motion_graph import UNREACHABLE, MotionGraph
 
-_MOST_KEPT = 64
+_MOST_KEPT = 16
 
 
 @dataclass(frozen=True, slots=True)

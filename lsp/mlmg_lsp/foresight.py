@@ -89,9 +89,10 @@ class Foresight:
         self._known.pop(uri, None)
 
     def end(self) -> None:
-        """Let go of all."""
+        """Let go of all, with the libraries that it was worked out of."""
         for uri in list(self._known):
             self.forget(uri)
+        self._travel = self._hopeless = None
 
     def _begun(self, snapshot: Snapshot) -> _Known:
         known = self._known.get(snapshot.uri)

@@ -259,6 +259,9 @@ class MotionScriptServer(LanguageServer):
             bar.end()
         is_another = shelved is not document.shelved
         document.shelved = shelved
+        if is_another:  # what is kept would keep the other library, which may be large
+            document.kept = {}
+            self.foresight.end()
         document.found.set()
         if is_another and document.begun:
             self.documents.analyse(document, afresh=True)

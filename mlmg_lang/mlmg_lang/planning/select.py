@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from mlmg_lang.diagnostics import Diagnostic
 from mlmg_lang.parsing import syntax
-from mlmg_lang.parsing.structure import without_groups
 from mlmg_lang.planning.finding.search import Search, Ways
 from mlmg_lang.planning.finding.table import RULES
 from mlmg_lang.planning.names import Names
@@ -17,11 +16,4 @@ from mlmg_lang.source import Source
 
 def select(motion: syntax.Motion, names: Names, source: Source) -> Ways | Diagnostic:
     """Return the assignments that an expression allows, the best first, or why there is none."""
-
-    def find(motion: syntax.Motion, room: Room) -> Ways | Diagnostic:
-        bare = without_groups(motion)
-        found = (rule.find(bare, room, search) for rule in RULES)
-        return next(ways for ways in found if ways is not None)
-
-    search = Search(names, source, find)
-    return find(motion, Room())
+    return Search(names, source, tuple(rule.find for rule in RULES)).find(motion, Room())

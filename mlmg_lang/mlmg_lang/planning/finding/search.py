@@ -8,7 +8,7 @@ from typing import TypeAlias
 
 from mlmg_lang.diagnostics import Diagnostic
 from mlmg_lang.parsing import syntax
-from mlmg_lang.parsing.structure import is_sub
+from mlmg_lang.parsing.structure import is_sub, without_groups
 from mlmg_lang.planning.names import Names
 from mlmg_lang.planning.nothing import Room, several_graphs, sub_leads_nowhere, wrong_graph
 from mlmg_lang.planning.typed import Layering
@@ -24,12 +24,18 @@ class Search:
 
     Attributes
     ----------
-    find : by all rules, what an expression stands for in the room that its command leaves it, or why that is nothing.
+    rules : in the order in which they are tried; each leaves by None what is not its own to the next.
     """
 
     names: Names
     source: Source
-    find: Callable[[syntax.Motion, Room], Ways | Diagnostic]
+    rules: tuple[Callable[[syntax.Motion, Room, Search], Ways | Diagnostic | None], ...]
+
+    def find(self, motion: syntax.Motion, room: Room) -> Ways | Diagnostic:
+        """Return what an expression stands for in the room that its command leaves it, or why that is nothing."""
+        bare = without_groups(motion)
+        found = (rule(bare, room, self) for rule in self.rules)
+        return next(ways for ways in found if ways is not None)
 
     def graphs(self, motion: syntax.Motion, room: Room) -> tuple[str, ...] | Diagnostic:
         """Return the graphs that an expression may be on, the likeliest first."""
