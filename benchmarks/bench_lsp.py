@@ -71,7 +71,10 @@ class Client:
             while (line := self.stdout.readline().strip()) or not length:
                 length = int(line.split(b":")[1]) if line.startswith(b"Content-Length") else length
             body = self.stdout.read(length)
-            if wanted(message := json.loads(body)):
+            message = json.loads(body)
+            if "method" in message and "id" in message:
+                self.send(id=message["id"], result=None)
+            if wanted(message):
                 return message
 
     def ask(self, method: str, params: Any) -> Any:

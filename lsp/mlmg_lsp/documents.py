@@ -16,7 +16,7 @@ from pygls.uris import to_fs_path
 
 from mlmg_lang.source import Source
 from mlmg_lsp.client import Client
-from mlmg_lsp.memory import settle, undisturbed, unsettle
+from mlmg_lsp.memory import clear_out, settle, undisturbed, unsettle
 from mlmg_lsp.positions import EditorPosition
 from mlmg_lsp.texts import edited, lines_of
 from mlmg_lsp.work import off_loop
@@ -175,6 +175,7 @@ class Documents:
             for task in (document.task, document.finding, document.ahead):
                 if task is not None:
                     task.cancel()
+            document.task = document.finding = document.ahead = None  # they keep it
 
     def close_all(self) -> None:
         """Let go of all texts."""
@@ -247,6 +248,9 @@ class Documents:
         except Exception as error:
             ready.set_exception(error)
             raise
+        if document.analysis is not None and document.analysis.question.catalog is not analysis.question.catalog:
+            document.analysis = None
+            clear_out()
         document.analysis, document.stale = analysis, False
         ready.set_result(analysis)
         if analysis.made.serial == 0:  # made afresh, so that nearly all of it will stay

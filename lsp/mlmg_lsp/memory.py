@@ -39,6 +39,22 @@ def unsettle() -> None:
     gc.unfreeze()
 
 
+def clear_out() -> None:
+    """Look through all at once, after something large has been let go of: the search does not know how large it is."""
+    gc.unfreeze()
+    gc.collect()
+
+
+def forget_way(error: BaseException | None) -> None:
+    """Let go of where an error has been, once it has been told.
+
+    Else it, those who have waited for it and the text that it is about keep one another, up to a search for garbage.
+    """
+    while error is not None:
+        error.__traceback__ = None
+        error = error.__context__
+
+
 @contextmanager
 def undisturbed() -> Iterator[None]:
     """Do something that makes very much of which nearly nothing goes again, without searching through it meanwhile."""

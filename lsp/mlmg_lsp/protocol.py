@@ -18,6 +18,7 @@ from pygls.exceptions import (
 )
 from pygls.protocol import LanguageServerProtocol, lsp_method
 
+from mlmg_lsp.memory import forget_way
 from mlmg_lsp.positions import Encoding
 from mlmg_lsp.written import Written
 
@@ -87,6 +88,11 @@ class Protocol(LanguageServerProtocol):
             super()._handle_request(msg_id, method_name, params)
             return
         self._send_response(msg_id, None, error.to_response_error())
+
+    def _send_handler_result(self, future: Any, *, msg_id: Any) -> None:
+        super()._send_handler_result(future, msg_id=msg_id)
+        if not future.cancelled():
+            forget_way(future.exception())
 
     def _send_response(self, msg_id: Any, result: Any = None, error: Any = None) -> None:
         if error is None and isinstance(result, Written):
