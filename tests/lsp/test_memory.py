@@ -1,10 +1,24 @@
-"""What is left out of the search for garbage."""
+"""What is left out of the search for garbage, and what goes without it."""
 
+import asyncio
 import gc
+import os
+import shutil
+from pathlib import Path
+from weakref import ref
 
 import pytest
+from lsprotocol import types
 
-from mlmg_lsp.memory import settle, undisturbed, unsettle
+from mlmg_lsp.features import answer_named
+from mlmg_lsp.libraries import Shelf
+from mlmg_lsp.memory import forget_way, settle, undisturbed, unsettle
+from mlmg_lsp.server import MotionScriptServer, build_server
+from mlmg_lsp.workspace import Settings
+from mlmg_runtime.library import Library
+
+URI = "untitled:memory.ms"
+TEXT = "WALK for 3 sec\nIDLE with Upper-Body TALK for 2 sec\n"
 
 
 def test_what_is_there_is_left_out_until_it_is_taken_back() -> None:
@@ -26,3 +40,69 @@ def test_nothing_is_searched_meanwhile_and_all_as_before_afterwards_whatever_hap
         failing()
     assert found == [False]
     assert gc.isenabled()
+
+
+class Large:
+    """Something that is to go."""
+
+
+def test_an_error_that_has_been_told_keeps_nothing_of_where_it_was() -> None:
+    def failing() -> None:
+        large = Large()
+        kept.append(ref(large))
+        raise ValueError("oh")
+
+    def tried() -> Exception:
+        try:
+            failing()
+        except ValueError as inner:
+            try:
+                raise KeyError("ah") from None
+            except KeyError as error:
+                assert error.__context__ is inner
+                return error
+        raise AssertionError
+
+    kept: list[ref[Large]] = []
+    with undisturbed():
+        error = tried()
+        assert kept[0]() is not None
+        forget_way(error)
+        assert kept[0]() is None
+
+
+def test_a_library_that_is_replaced_goes_at_once_with_all_that_was_worked_out_of_it(
+    tmp_path: Path, demo_library: Library
+) -> None:
+    path = Path(shutil.copy(demo_library.path, tmp_path / "demo.mlmg"))
+
+    async def replaced() -> None:
+        server = build_server(Settings(str(path)), Shelf())
+        server.opened(types.DidOpenTextDocumentParams(types.TextDocumentItem(URI, "motion-script", 1, TEXT)))
+        document = server.documents.get(URI)
+        assert document is not None
+        await asked(server)
+        assert document.shelved is not None
+        before, names = ref(document.shelved.library), ref(document.shelved.names)
+        os.utime(path, (1, 1))
+        server.saved(types.DidSaveTextDocumentParams(types.TextDocumentIdentifier(URI)))
+        assert document.finding is not None
+        await document.finding
+        await server.snapshot(URI)
+        assert before() is None
+        assert names() is None
+        server.documents.close_all()
+
+    with undisturbed():
+        asyncio.run(replaced())
+
+
+async def asked(server: MotionScriptServer) -> None:
+    """Ask for what is kept from one answer to the next, and for what cannot be had."""
+    snapshot = await server.snapshot(URI)
+    document = types.TextDocumentIdentifier(URI)
+    for module in ("semantic_tokens", "outline", "formatting"):
+        answer_named(f"{module}.get_ahead")(snapshot)
+    assert await server.foresight.of(snapshot) is not None
+    position = types.Position(0, 0)
+    assert answer_named("completion.completion")(snapshot, types.CompletionParams(document, position))

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import gc
 from typing import Any
+from weakref import ref
 
 import pytest
 
@@ -181,3 +183,18 @@ def test_an_and_inside_an_and_is_flattened() -> None:
     command = read(source, tokenize(source))
     assert isinstance(command, Command)
     assert [source.slice(part.span) for part in flattened(command.motion)] == ["A", "B", "C", "D", "not (E and F)"]
+
+
+def test_what_has_found_an_expression_is_gone_when_it_is_found(hands: Any) -> None:
+    source = Source("WALK with Upper-Body TALK")
+    command = read(source, tokenize(source))
+    assert isinstance(command, Command)
+    names = Names(hands)
+    gone = ref(names)
+    gc.disable()  # which would take what keeps itself, but much later
+    try:
+        select(command.motion, names, source)
+        del names
+        assert gone() is None
+    finally:
+        gc.enable()
