@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import unicodedata
-from collections.abc import Iterable, Sequence
-from functools import lru_cache
+from collections.abc import Iterable, Mapping, Sequence
+from functools import cached_property, lru_cache
 
 
 def normal(name: str) -> str:
@@ -22,13 +22,34 @@ def folded(name: str) -> str:
     return plain.replace("_", "").replace("-", "") or plain
 
 
+class Vocabulary:
+    """Known names, made ready once to be compared with one unknown name after the other."""
+
+    def __init__(self, known: Iterable[str]) -> None:
+        """Look at all names; of those that are given twice, the first counts."""
+        self.names = tuple(dict.fromkeys(known))
+        self._seen = list(map(_seen, self.names))
+
+    def nearest(self, name: str, limit: int = 3) -> tuple[str, ...]:
+        """Return the names that look most like `name`, the most like first; none if none looks like it."""
+        from rapidfuzz import fuzz, process
+
+        wanted = _seen(name)
+        found = process.extract(wanted, self._seen, scorer=fuzz.ratio, limit=limit, score_cutoff=65)
+        return tuple(self.names[at] for _, _, at in found) or self._of_letters.get(_letters(wanted), ())[:limit]
+
+    @cached_property
+    def _of_letters(self) -> Mapping[str, tuple[str, ...]]:
+        """The names by their letters, for short words with two of them swapped."""
+        found: dict[str, list[str]] = {}
+        for name in self.names:
+            found.setdefault(_letters(folded(name)), []).append(name)
+        return {letters: tuple(names) for letters, names in found.items()}
+
+
 def nearest(name: str, known: Iterable[str], limit: int = 3) -> tuple[str, ...]:
     """Return the known names that look most like `name`, the most like first; none if none looks like it."""
-    from rapidfuzz import fuzz, process
-
-    wanted, choices = _seen(name), list(dict.fromkeys(known))
-    found = process.extract(wanted, list(map(_seen, choices)), scorer=fuzz.ratio, limit=limit, score_cutoff=65)
-    return tuple(choices[at] for _, _, at in found) or _same_letters(wanted, choices, limit)
+    return Vocabulary(known).nearest(name, limit)
 
 
 @lru_cache(maxsize=1 << 16)
@@ -37,10 +58,8 @@ def _seen(name: str) -> str:
     return folded(unicodedata.normalize("NFKC", name))
 
 
-def _same_letters(wanted: str, known: Iterable[str], limit: int) -> tuple[str, ...]:
-    """Return the names of the very letters of `wanted`, for short words with two of them swapped."""
-    letters, n = sorted(wanted), len(wanted)
-    return tuple(name for name in known if len(folded(name)) == n and sorted(folded(name)) == letters)[:limit]
+def _letters(word: str) -> str:
+    return "".join(sorted(word))
 
 
 def is_slip_of(word: str, meant: str) -> bool:

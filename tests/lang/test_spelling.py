@@ -1,8 +1,13 @@
 from __future__ import annotations
 
-import pytest
+from collections.abc import Sequence
 
-from mlmg_lang.spelling import folded, is_slip_of, joined, listed, nearest, some
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from rapidfuzz import fuzz
+
+from mlmg_lang.spelling import Vocabulary, folded, is_slip_of, joined, listed, nearest, some
 
 KNOWN = ("WALK", "TALK", "WAVE_HAND", "SWING_HAND", "Idle_01", "Music")
 
@@ -26,6 +31,26 @@ def test_a_name_like_no_other_has_none_near() -> None:
     assert nearest("JUGGLE", KNOWN) == ()
     assert nearest("", KNOWN) == ()
     assert nearest("WALK", ()) == ()
+
+
+def slowly_nearest(name: str, known: Sequence[str], limit: int) -> tuple[str, ...]:
+    """Compare a name, which has no wide letters, with one after the other."""
+    choices, wanted = list(dict.fromkeys(known)), folded(name)
+    alike = {choice: fuzz.ratio(wanted, folded(choice)) for choice in choices}
+    by_ratio = sorted((choice for choice in choices if alike[choice] >= 65), key=lambda choice: -alike[choice])
+    return tuple(by_ratio or (choice for choice in choices if sorted(folded(choice)) == sorted(wanted)))[:limit]
+
+
+WORDS = st.text("abAB1_-", max_size=6)
+
+
+@given(st.lists(WORDS, max_size=12), st.lists(WORDS, min_size=1, max_size=4), st.integers(1, 3))
+def test_a_vocabulary_finds_what_comparing_one_name_after_the_other_does(
+    known: list[str], unknown: list[str], limit: int
+) -> None:
+    vocabulary = Vocabulary(known)
+    for name in unknown:
+        assert vocabulary.nearest(name, limit) == slowly_nearest(name, known, limit)
 
 
 def test_no_more_names_are_near_than_asked_for() -> None:

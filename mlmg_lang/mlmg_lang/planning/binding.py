@@ -274,8 +274,7 @@ def _graph_meant(name: syntax.Name, wrong: Sequence[Unbound], names: Names) -> s
     graph = names.graph(name.text)
     if graph is not None or not any(one.diagnostic is not None and one.diagnostic.code == "MS021" for one in wrong):
         return graph
-    near = nearest(name.text, (*names.graphs, *names.spellings()), limit=1)
-    return near[0] if near and near[0] in names.graphs else None
+    return names.nearest_graph(name.text)
 
 
 def _called(node: syntax.Call, name: syntax.Name, scope: Scope) -> Iterator[Unbound]:
@@ -399,8 +398,9 @@ def _definition_as_graph(node: syntax.Qualified, let: syntax.Let) -> Diagnostic:
 def _is_plain(name: syntax.Name, scope: Scope) -> bool:
     """Return whether a word without quotes is like nothing known."""
     names = scope.names
-    known = (*names.spellings(), *names.graphs, SUB, *(let.name.text for let in scope.own.values()))
-    return not name.quoted and name.sound and not nearest(name.text, known)
+    if name.quoted or not name.sound or names.nearest(name.text, names.graphs):
+        return False
+    return not nearest(name.text, (*names.graphs, SUB, *(let.name.text for let in scope.own.values())))
 
 
 def _before_graph(node: syntax.Qualified, names: Names) -> Diagnostic:

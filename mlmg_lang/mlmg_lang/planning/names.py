@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from enum import StrEnum
+from functools import cached_property
 
 from mlmg_lang.catalog import Catalog
-from mlmg_lang.spelling import folded, nearest, normal
+from mlmg_lang.spelling import Vocabulary, folded, normal
 
 _MOST_KEPT = 4096
 
@@ -56,6 +57,7 @@ class _Graph:
     motion_set: frozenset[str]
     entries: tuple[Entry, ...]
     spellings: tuple[str, ...]
+    tags: tuple[str, ...]
     exact: Mapping[str, Entry]
     inexact: Mapping[str, tuple[Entry, ...]]
 
@@ -72,6 +74,8 @@ class Names:
         self._names = {graph: _index(catalog, graph) for graph in self.graphs}
         self._graphs_exact = {normal(graph): graph for graph in self.graphs}
         self._graphs_inexact = {folded(graph): graph for graph in reversed(self.graphs)}
+        self._tags: dict[tuple[str, ...], tuple[str, ...]] = {}
+        self._vocabularies: dict[tuple[str, ...], Vocabulary] = {}
         self._near: dict[tuple[str, tuple[str, ...]], tuple[str, ...]] = {}
         self._anywhere = frozenset(name for index in self._names.values() for name in index.exact)
 
@@ -169,13 +173,30 @@ class Names:
         if found is None:
             if len(self._near) >= _MOST_KEPT:
                 self._near.clear()
-            found = self._near[key] = nearest(written, (word for graph in key[1] for word in self.spellings_on(graph)))
+            found = self._near[key] = self._vocabulary(key[1]).nearest(written)
         return found
+
+    def _vocabulary(self, graphs: tuple[str, ...]) -> Vocabulary:
+        """Return the names on some graphs, kept: comparing is quick, making them ready for it is not."""
+        if graphs not in self._vocabularies:
+            self._vocabularies[graphs] = Vocabulary(word for graph in graphs for word in self.spellings_on(graph))
+        return self._vocabularies[graphs]
+
+    def nearest_graph(self, written: str) -> str | None:
+        """Return the graph that looks most like a written name, if no motion or tag looks more like it."""
+        near = self._everything.nearest(written, limit=1)
+        return near[0] if near and near[0] in self._parent else None
+
+    @cached_property
+    def _everything(self) -> Vocabulary:
+        return Vocabulary((*self.graphs, *self.spellings()))
 
     def tags(self, graphs: Iterable[str]) -> tuple[str, ...]:
         """Return every tag on some graphs, once."""
-        entries = (entry for graph in graphs for entry in self._names[graph].exact.values())
-        return tuple(dict.fromkeys(entry.name for entry in entries if entry.kind is Kind.TAG))
+        key = tuple(graphs)
+        if key not in self._tags:
+            self._tags[key] = tuple(dict.fromkeys(tag for graph in key for tag in self._names[graph].tags))
+        return self._tags[key]
 
     def spellings(self) -> tuple[str, ...]:
         """Return every motion and tag, once."""
@@ -197,4 +218,6 @@ def _index(catalog: Catalog, graph: str) -> _Graph:
     exact = {normal(entry.name): entry for entry in reversed(entries)}
     exact = dict(reversed(exact.items()))
     listed = tuple(sorted(exact.values(), key=lambda entry: entry.kind is Kind.MOTION))
-    return _Graph(motions, frozenset(motions), listed, tuple(entry.name for entry in listed), exact, inexact)
+    spellings = tuple(entry.name for entry in listed)
+    tags = tuple(entry.name for entry in exact.values() if entry.kind is Kind.TAG)
+    return _Graph(motions, frozenset(motions), listed, spellings, tags, exact, inexact)

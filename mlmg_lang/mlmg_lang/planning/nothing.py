@@ -11,7 +11,7 @@ from mlmg_lang.parsing.lexical import script_name
 from mlmg_lang.parsing.structure import group_of
 from mlmg_lang.planning.names import Entry, Kind, Names
 from mlmg_lang.source import Source
-from mlmg_lang.spelling import joined, listed, nearest, some
+from mlmg_lang.spelling import joined, listed, some
 
 
 @dataclass(frozen=True, slots=True)
@@ -102,7 +102,7 @@ def _not_on(name: syntax.Name, tried: Sequence[str], names: Names) -> Diagnostic
     tags = _tags_of(entry, tried[0], names) if entry.kind is Kind.TAG else ()
     if tags:
         advice += f"; the same motions are {listed(tags)} on `{tried[0]}`"
-    near = (*tags, *nearest(name.text, names.spellings_on(tried[0]), limit=1))
+    near = (*tags, *names.nearest(name.text, tried[:1])[:1])
     fixes = tuple(Fix(name.span, script_name(word), safe=False) for word in dict.fromkeys(near))
     return Diagnostic("MS022", message, name.span, advice, fixes=fixes)
 

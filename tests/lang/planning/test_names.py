@@ -1,12 +1,17 @@
 from __future__ import annotations
 
 import random
+from collections.abc import Iterable
 from typing import Any
 
 import pytest
 
+from mlmg_lang import spelling
+from mlmg_lang.front_end import analyse
+from mlmg_lang.planning import names as names_module
 from mlmg_lang.planning.names import Kind, Names
-from mlmg_lang.spelling import nearest
+from mlmg_lang.source import Source
+from mlmg_lang.spelling import Vocabulary, nearest
 
 
 @pytest.fixture
@@ -67,6 +72,24 @@ def test_the_motions_of_a_tag_stand_in_configuration_order(reference: Any) -> No
     match = Names(reference).find("Full-Body", "IDLE")
     assert match is not None
     assert match.entry.motions == ("Idle_01", "Idle_02", "Music_01", "Talk_01")
+
+
+def test_the_names_of_a_library_are_made_ready_once_however_many_are_unknown(
+    catalog: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    made: list[list[str]] = []
+
+    class Counted(Vocabulary):
+        def __init__(self, known: Iterable[str]) -> None:
+            made.append(list(known))
+            super().__init__(made[-1])
+
+    monkeypatch.setattr(spelling, "Vocabulary", Counted)
+    monkeypatch.setattr(names_module, "Vocabulary", Counted)
+    on = {f"Walk_{at:03}": ("WALK", f"TAG_{at}") for at in range(200)}
+    library = catalog({"Body": on, "Top": dict.fromkeys(on, ())}, {"Top": "Body"}, start="Walk_000")
+    analyse(Source("".join(f"unlike{at} bar{at}; Wolk_{at}; foo{at}(bar)\n" for at in range(50))), library)
+    assert 0 < sum(len(known) >= 200 for known in made) <= 4
 
 
 def test_own_names_and_the_nearest_of_a_library_have_the_nearest_of_all_among_them(catalog: Any) -> None:
