@@ -37,7 +37,7 @@ class Library:
     by_name: Mapping[str, MotionGraph] = field(repr=False)
     reports: Mapping[str, dict[str, Any]] = field(repr=False)
     warnings: tuple[str, ...]
-    configuration: Path | None = None
+    configuration: Path | None = field(default=None, repr=False)
     _poses: dict[str, Poses] = field(default_factory=dict, repr=False, compare=False)
 
     @cached_property

@@ -15,10 +15,10 @@ from mlmg_lang.blocks import Statement, WholeBlock
 from mlmg_lang.diagnostics import has_errors
 from mlmg_lang.formatting.pieces import statements
 from mlmg_lang.formatting.printing import Printer
+from mlmg_lang.formatting.reading import read_lines
 from mlmg_lang.formatting.words import Words, words_of
 from mlmg_lang.parsing.layout import lay_out
 from mlmg_lang.parsing.lookalikes import has_other_comments
-from mlmg_lang.parsing.strays import stray_signs, without_strays
 from mlmg_lang.parsing.tokenize import tokenize
 from mlmg_lang.source import Source
 
@@ -75,8 +75,7 @@ class Forms:
     def _print(self, text: str) -> str:
         source = Source(text)
         tokens = tokenize(source)
-        strays = [one.span for one in stray_signs(tokens) if one.span is not None]
-        layout = lay_out(without_strays(tokens))
+        layout, strays = read_lines(tokens)
         return Printer(source, tokens, layout, self._words, self._sound, strays).script()
 
 

@@ -5,9 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from mlmg_lang.formatting.printing import Printer
-from mlmg_lang.parsing.layout import lay_out
+from mlmg_lang.formatting.reading import read_lines
 from mlmg_lang.parsing.lookalikes import has_other_comments
-from mlmg_lang.parsing.strays import stray_signs, without_strays
 from mlmg_lang.parsing.tokenize import MAX_TOKENS, tokenize
 from mlmg_lang.source import Source
 
@@ -39,6 +38,6 @@ def format_script(source: Source) -> Formatted:
     # Lines of other comments would be taken for statements, and broken up.
     if len(tokens) == MAX_TOKENS or has_other_comments(tokens):
         return Formatted(source.text, False)
-    strays = [one.span for one in stray_signs(tokens) if one.span is not None]
-    printer = Printer(source, tokens, lay_out(without_strays(tokens)), strays=strays)
+    layout, strays = read_lines(tokens)
+    printer = Printer(source, tokens, layout, strays=strays)
     return Formatted(printer.script(), not printer.kept)

@@ -106,7 +106,7 @@ def find_strays(tokens: Sequence[Token], depth: int = 0) -> list[Stray]:
 def _stray(tokens: Sequence[Token], at: int, depth: int) -> Stray | None:
     """Return a sign if it is not meant; `depth`: how many blocks are open before it."""
     kind, before, after = tokens[at].type, _before(tokens, at), _after(tokens, at)
-    if before in _ENDS_STATEMENT or (after == "NEWLINE" and kind != "OPEN"):
+    if before in _ENDS_STATEMENT | {"COLON"} or (after == "NEWLINE" and kind != "OPEN"):
         return None
     if kind == "OPEN":
         return _stray_brace(tokens, at, before, after)

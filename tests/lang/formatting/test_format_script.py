@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from hypothesis.strategies import SearchStrategy
 
@@ -68,6 +68,8 @@ def test_a_valid_script_keeps_its_meaning_and_comments(
 
 
 @settings(max_examples=300)
+@example('WALK } " WALK')
+@example("2: { with")
 @given(st.lists(st.sampled_from(PIECES), max_size=30).map(" ".join))
 def test_any_words_keep_their_mistakes_and_comments(formatted: Formatted, text: str) -> None:
     formatted(text)
