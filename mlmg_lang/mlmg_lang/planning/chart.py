@@ -21,7 +21,7 @@ class Step:
     ----------
     before : the numbers of the steps after which this one may come; in a loop, later ones too.
     loops : the numbers of the steps where the loops around this one begin, the outermost first.
-    again : the numbers of the steps where loops begin that may come right after this one.
+    again : the numbers of the steps where loops begin that come round after this one, the last that leads there.
     """
 
     statement: Leaf | None
@@ -55,10 +55,8 @@ class _Charter:
                 around, self.loops = self.loops, (*self.loops, head)
                 after = self.body(body, [head])
                 self.loops = around
-                for last in after if count > 1 else ():
-                    if last != head:
-                        self.steps[head].before.append(last)
-                        self.steps[last].again.append(head)
+                if count > 1:
+                    self._come_round(head, [last for last in after if last != head])
                 return after if count > 0 else before
             case typed.Choose(branches):
                 ends: dict[int, None] = {}
@@ -69,6 +67,11 @@ class _Charter:
                 return list(ends) or before
             case _:
                 return [self._add(statement, before)]
+
+    def _come_round(self, head: int, lasts: list[int]) -> None:
+        self.steps[head].before += lasts
+        if lasts:
+            self.steps[max(lasts)].again.append(head)
 
     def _add(self, statement: Leaf | None, before: list[int]) -> int:
         number = len(self.steps)

@@ -115,7 +115,8 @@ def test_a_step_may_come_after_those_that_it_does_come_after_in_some_order(body:
 def test_every_loop_knows_from_where_it_begins_again(body: list[typed.Statement]) -> None:
     steps = chart(body)
     for number, step in enumerate(steps):
-        assert sorted(step.again) == [head for head in range(number) if number in steps[head].before]
+        last_before = [max(steps[head].before, default=START) for head in range(number)]
+        assert sorted(step.again) == [head for head, last in enumerate(last_before) if last == number]
 
 
 def test_the_steps_of_a_plain_script_follow_each_other() -> None:

@@ -544,6 +544,7 @@ def counted_moves(monkeypatch: pytest.MonkeyPatch) -> list[int]:
         ("repeat 2 { " + "repeat 3 { Upper-Body TALK; IDLE; WALK }; " * 500 + "}", 10_000),
         ("repeat 2 { " * 8 + "repeat 3 { Upper-Body TALK; IDLE; WALK }; " * 100 + "}" * 8, 2_000),
         ("repeat 3 { Upper-Body TALK; IDLE; WALK; " * 10 + "}" * 10, 1_000),
+        ("repeat 2 { choose { " + " | ".join(["IDLE; Upper-Body TALK"] * 100) + " } }", 1_000),
         ("IDLE; Upper-Body TALK; " * 1_000, 5_000),
         ("repeat 2 { " + "choose { IDLE | WALK; Upper-Body TALK }; " * 700 + "}; Upper-Body TALK", 20_000),
     ],
