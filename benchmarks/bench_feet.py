@@ -27,7 +27,7 @@ import mlmg_lang
 from mlmg_lang.perform import rehearse
 from mlmg_runtime.arrays import BoolArray, FloatArray
 from mlmg_runtime.building.build import build_library
-from mlmg_runtime.building.configuration import read_configuration
+from mlmg_runtime.building.reading.read_configuration import read_configuration
 from mlmg_runtime.database import write_database
 from mlmg_runtime.demo.library import demo_library
 from mlmg_runtime.feet import find_plants

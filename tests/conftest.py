@@ -7,7 +7,7 @@ import pytest
 from hypothesis import settings
 
 from mlmg_runtime.building.build import build_library
-from mlmg_runtime.building.configuration import read_configuration
+from mlmg_runtime.building.reading.read_configuration import read_configuration
 from mlmg_runtime.built_library import BuiltLibrary
 from mlmg_runtime.database import write_database
 from mlmg_runtime.demo.library import demo_library as build_demo_library

@@ -15,7 +15,7 @@ import pytest
 import mlmg_lang
 from mlmg_lang.perform import rehearse
 from mlmg_runtime.building.build import build_library
-from mlmg_runtime.building.configuration import read_configuration
+from mlmg_runtime.building.reading.read_configuration import read_configuration
 from mlmg_runtime.database import write_database
 from mlmg_runtime.library import Library, open_library
 

@@ -9,7 +9,7 @@ import pytest
 
 from mlmg_runtime.arrays import FloatArray
 from mlmg_runtime.building.build import build_library
-from mlmg_runtime.building.configuration import read_configuration
+from mlmg_runtime.building.reading.read_configuration import read_configuration
 from mlmg_runtime.bvh import Bvh, Joint, write
 from mlmg_runtime.database import write_database
 from mlmg_runtime.library import Library, open_library

@@ -14,7 +14,7 @@ import pytest
 
 from mlmg_runtime import database
 from mlmg_runtime.building.build import build_library
-from mlmg_runtime.building.configuration import read_configuration
+from mlmg_runtime.building.reading.read_configuration import read_configuration
 from mlmg_runtime.built_library import BuiltLibrary
 from mlmg_runtime.database import read_graphs, write_database
 from mlmg_runtime.errors import LibraryError

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from mlmg_runtime.building.build import build_library
-from mlmg_runtime.building.configuration import read_configuration
+from mlmg_runtime.building.reading.read_configuration import read_configuration
 from mlmg_runtime.database import write_database
 from mlmg_runtime.errors import LibraryError
 from mlmg_runtime.library import open_library

@@ -46,7 +46,7 @@ def run(arguments: argparse.Namespace) -> int:
     from concurrent.futures import ThreadPoolExecutor
 
     from mlmg_runtime.building.build import build_library
-    from mlmg_runtime.building.configuration import read_configuration
+    from mlmg_runtime.building.reading.read_configuration import read_configuration
     from mlmg_runtime.database import write_database
 
     _refuse_what_is_no_configuration(arguments.configuration)

@@ -75,7 +75,7 @@ def _build(path: Path, progress: Callable[[str, int, int], None]) -> None:
     """Write the clips and their configuration into a temporary folder, and build the library from there."""
     from mlmg_runtime import bvh
     from mlmg_runtime.building.build import build_library
-    from mlmg_runtime.building.configuration import read_configuration
+    from mlmg_runtime.building.reading.read_configuration import read_configuration
     from mlmg_runtime.database import write_database
     from mlmg_runtime.demo.clips import demo_clips
     from mlmg_runtime.demo.configuration import demo_configuration

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from mlmg_runtime.building.build import SMOOTH_SHARE, build_library
-from mlmg_runtime.building.configuration import read_configuration
+from mlmg_runtime.building.reading.read_configuration import read_configuration
 from mlmg_runtime.built_library import BuiltLibrary
 from mlmg_runtime.database import write_database
 from mlmg_runtime.errors import ConfigurationError

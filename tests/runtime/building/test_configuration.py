@@ -2,7 +2,8 @@ from pathlib import Path
 
 import pytest
 
-from mlmg_runtime.building.configuration import LibraryConfiguration, Threshold, check_start, read_configuration
+from mlmg_runtime.building.configuration import LibraryConfiguration, Threshold, check_start
+from mlmg_runtime.building.reading.read_configuration import read_configuration
 from mlmg_runtime.errors import ConfigurationError
 
 CLIPS = ("Idle_01", "Walk_01", "Walk_02", "sub/Walk_01")

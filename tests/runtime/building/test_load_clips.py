@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from mlmg_runtime import rotations
-from mlmg_runtime.building.configuration import read_configuration
 from mlmg_runtime.building.load_clips import Clips, load_clips
 from mlmg_runtime.building.mirror import mirrored
+from mlmg_runtime.building.reading.read_configuration import read_configuration
 from mlmg_runtime.bvh import Bvh, Joint, write
 from mlmg_runtime.clips import poses_from_bvh, resample
 from mlmg_runtime.errors import ConfigurationError, LibraryError

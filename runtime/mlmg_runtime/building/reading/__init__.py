@@ -1,0 +1,1 @@
+"""From a library's TOML file to its configuration; every value that is taken is checked."""
