@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
+from operator import attrgetter
 from typing import TYPE_CHECKING, Any, Final
 
 from lsprotocol import types
@@ -12,23 +13,25 @@ from mlmg_lang.ide.fuzzy import matching
 from mlmg_lang.ide.here import state_before, tokens_around
 from mlmg_lang.planning import flow
 from mlmg_lang.planning.names import Names
-from mlmg_lsp.convert import markup, offset_of, range_of
+from mlmg_lsp.convert import markup, offset_of
 from mlmg_lsp.documents import Snapshot
 from mlmg_lsp.nothing import NoFits, Nothing
+from mlmg_lsp.positions import EditorPosition, range_from_span
+from mlmg_lsp.written import Json, Written, written
 
 if TYPE_CHECKING:
     from mlmg_runtime.library import Library
 
 MOST_SENT: Final = 100
 """So many, the best; a client asks again when more has been written."""
-_KINDS: Final[Mapping[What, types.CompletionItemKind]] = {
-    What.MOTION: types.CompletionItemKind.Value,
-    What.TAG: types.CompletionItemKind.EnumMember,
-    What.GRAPH: types.CompletionItemKind.Class,
-    What.DEFINITION: types.CompletionItemKind.Function,
-    What.PARAMETER: types.CompletionItemKind.Variable,
-    What.WORD: types.CompletionItemKind.Keyword,
-    What.UNIT: types.CompletionItemKind.Unit,
+_KINDS: Final[Mapping[What, int]] = {
+    What.MOTION: types.CompletionItemKind.Value.value,
+    What.TAG: types.CompletionItemKind.EnumMember.value,
+    What.GRAPH: types.CompletionItemKind.Class.value,
+    What.DEFINITION: types.CompletionItemKind.Function.value,
+    What.PARAMETER: types.CompletionItemKind.Variable.value,
+    What.WORD: types.CompletionItemKind.Keyword.value,
+    What.UNIT: types.CompletionItemKind.Unit.value,
 }
 _SNIPPETS: Final[Mapping[str, str]] = {
     "with": "with $0",
@@ -40,17 +43,18 @@ _SNIPPETS: Final[Mapping[str, str]] = {
 }
 
 
-def completion(snapshot: Snapshot, params: types.CompletionParams) -> types.CompletionList:
+def completion(snapshot: Snapshot, params: types.CompletionParams) -> Written:
     """Return what could be written at a place, the best first."""
     source, client = snapshot.analysis.source, snapshot.client
     offset = offset_of(source, params.position, client.encoding)
-    span, offered = complete(tokens_around(snapshot.analysis, offset), offset, _surroundings(snapshot, offset))
+    offered = complete(tokens_around(snapshot.analysis, offset), offset, _surroundings(snapshot, offset))
+    span = offered.span
     word = source.text[span.start : offset].lstrip('"')
-    found = matching(word, offered, lambda one: one.name)
-    place = range_of(source, span, client.encoding)
-    written = source.text[span.start : span.end]
-    items = [_item(snapshot, one, rank, place, written) for rank, one in enumerate(found[:MOST_SENT])]
-    return types.CompletionList(is_incomplete=len(found) > MOST_SENT, items=items)
+    found = matching(word, offered.found, attrgetter("name"), MOST_SENT)
+    place = _range(range_from_span(source, span, client.encoding))
+    stands = source.text[span.start : span.end]
+    items = [_item(snapshot, one, rank, place, stands) for rank, one in enumerate(found[:MOST_SENT])]
+    return written({"isIncomplete": len(found) > MOST_SENT, "items": items})
 
 
 def resolve(snapshot: Snapshot, item: types.CompletionItem) -> types.CompletionItem:
@@ -64,24 +68,30 @@ def resolve(snapshot: Snapshot, item: types.CompletionItem) -> types.CompletionI
     return item
 
 
-def _item(snapshot: Snapshot, one: Completion, rank: int, place: types.Range, written: str) -> types.CompletionItem:
+def _range(ends: Iterable[EditorPosition]) -> Json:
+    start, end = ({"line": line, "character": character} for line, character in ends)
+    return {"start": start, "end": end}
+
+
+def _item(snapshot: Snapshot, one: Completion, rank: int, place: Json, stands: str) -> Json:
+    """Return a completion as it is sent; `place`: what it takes the place of, and what `stands` there."""
     snippet = _SNIPPETS.get(one.text) if snapshot.client.snippets and one.what is What.WORD else None
-    return types.CompletionItem(
+    item: dict[str, Json] = {
         # What is compared with it begins with the quote where one is written.
-        label=one.text if written.startswith('"') else one.name,
-        kind=_KINDS[one.what],
-        detail=_detail(one),
-        sort_text=f"{rank:04}",
-        text_edit=types.TextEdit(place, snippet or one.text),
-        insert_text_format=types.InsertTextFormat.Snippet if snippet else None,
+        "label": one.text if stands.startswith('"') else one.name,
+        "kind": _KINDS[one.what],
+        "detail": _detail(one),
+        "sortText": f"{rank:04}",
+        "textEdit": {"range": place, "newText": snippet or one.text},
+        "data": {"uri": snapshot.uri, "name": one.name, "what": one.what.value, "graph": one.graph},
+    }
+    if snippet:
+        item["insertTextFormat"] = types.InsertTextFormat.Snippet.value
+    if snapshot.client.indents:
         # Else a client may indent the line of a name as it sees fit.
-        insert_text_mode=_mode(snippet) if snapshot.client.indents else None,
-        data={"uri": snapshot.uri, "name": one.name, "what": one.what.value, "graph": one.graph},
-    )
-
-
-def _mode(snippet: str | None) -> types.InsertTextMode:
-    return types.InsertTextMode.AdjustIndentation if snippet else types.InsertTextMode.AsIs
+        mode = types.InsertTextMode.AdjustIndentation if snippet else types.InsertTextMode.AsIs
+        item["insertTextMode"] = mode.value
+    return item
 
 
 def _detail(one: Completion) -> str:
@@ -97,12 +107,14 @@ def _detail(one: Completion) -> str:
 
 def _surroundings(snapshot: Snapshot, offset: int) -> Surroundings:
     """Return what a text is completed against; without a library, its own definitions and the language's words."""
-    definitions = snapshot.analysis.definitions
+    definitions = snapshot.analysis.made.gathered.definitions  # names alone are asked for, so places make no difference
     if snapshot.shelved is None:
         names = Names(Nothing())
         return Surroundings(names, definitions, flow.unknown(names), Offers(names, NoFits()))
     names = snapshot.shelved.names
-    return Surroundings(names, definitions, state_before(snapshot.analysis, offset, names), snapshot.shelved.offers)
+    before = state_before(snapshot.analysis, offset, names, snapshot.kept.get("before"))
+    snapshot.kept["before"] = before
+    return Surroundings(names, definitions, before.state, snapshot.shelved.offers)
 
 
 # --- what there is to read ---

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum
-from itertools import pairwise
+from itertools import chain, pairwise
 from math import inf
 from typing import Final, NamedTuple, Protocol, TypeAlias
 
@@ -59,7 +59,6 @@ class Completion(NamedTuple):
     text : as it is written, in quotes if it must be or a quote has been written. name : as it is called.
     graph : that the motions of a name are on, or None.
     motions : that it stands for.
-    fit : how well the best of them goes with what is playing; the smaller, the better. None if that is not known.
     says : a few words about it.
     """
 
@@ -68,12 +67,27 @@ class Completion(NamedTuple):
     what: What
     graph: str | None = None
     motions: tuple[str, ...] = ()
-    fit: float | None = None
     says: str = ""
 
 
-_Row: TypeAlias = tuple[str, str, What, str, tuple[str, ...]]
-"""What a completion says of a name, but how well it fits."""
+@dataclass(frozen=True, slots=True)
+class Offered:
+    """What could be written at a place.
+
+    Attributes
+    ----------
+    span : the stretch that it takes the place of.
+    found : the best first.
+    fits : by graph, how well its motions go with what is playing; see `Fits`.
+    """
+
+    span: Span
+    found: tuple[Completion, ...]
+    fits: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
+
+    def fit(self, one: Completion) -> float | None:
+        """Return how well the best motion of a completion goes with what is playing; None if that is not known."""
+        return None if one.graph is None else _best(one, self.fits[one.graph])
 
 
 class Fits(Protocol):
@@ -88,6 +102,13 @@ class Fits(Protocol):
         """
 
 
+class Ranked(NamedTuple):
+    """The names on a graph whose motions can be had, the best first, and how well the motions fit."""
+
+    found: tuple[Completion, ...]
+    fits: Mapping[str, float]
+
+
 @dataclass(frozen=True, slots=True)
 class Offers:
     """What the names of a library are worth while something is playing. What was asked is kept.
@@ -100,34 +121,36 @@ class Offers:
     names: Names
     fits: Fits
     uses: Mapping[str, int] = field(default_factory=dict)
-    _known: dict[tuple[str, frozenset[str]], tuple[Completion, ...]] = field(default_factory=dict)
-    _listed: dict[str, tuple[_Row, ...]] = field(default_factory=dict)
+    _known: dict[tuple[str, frozenset[str]], Ranked] = field(default_factory=dict)
+    _listed: dict[str, tuple[Completion, ...]] = field(default_factory=dict)
 
-    def on(self, graph: str, above: Collection[str]) -> tuple[Completion, ...]:
+    def on(self, graph: str, above: Collection[str]) -> Ranked:
         """Return the names on a graph whose motions can be had, what fits best first, then what is used most."""
         key = (graph, frozenset(above))
         found = self._known.get(key)
         if found is None:
             if graph not in self._listed:
-                self._listed[graph] = tuple(_row(entry, graph) for entry in self.names.entries(graph))
-            found = self._known[key] = tuple(self._ranked(self._listed[graph], self.fits.fits(graph, above)))
+                self._listed[graph] = tuple(_named(entry, graph) for entry in self.names.entries(graph))
+            fits = self.fits.fits(graph, above)
+            found = self._known[key] = Ranked(self._ranked(self._listed[graph], fits), fits)
         return found
 
-    def _ranked(self, rows: Sequence[_Row], fits: Mapping[str, float]) -> Iterator[Completion]:
-        best = [_best(motions, fits) for _, _, _, _, motions in rows]
-        order = [at for at in sorted(range(len(rows)), key=best.__getitem__) if best[at] < inf]
+    def _ranked(self, listed: Sequence[Completion], fits: Mapping[str, float]) -> tuple[Completion, ...]:
+        best = [_best(one, fits) for one in listed]
+        order = [at for at in sorted(range(len(listed)), key=best.__getitem__) if best[at] < inf]
         if self.uses:
-            order.sort(key=lambda at: (best[at], -self.uses.get(rows[at][1], 0)))
-        return (Completion(*rows[at], best[at]) for at in order)
+            order.sort(key=lambda at: (best[at], -self.uses.get(listed[at].name, 0)))
+        return tuple([listed[at] for at in order])
 
 
-def _row(entry: Entry, graph: str) -> _Row:
+def _named(entry: Entry, graph: str) -> Completion:
     what = What.MOTION if entry.kind is Kind.MOTION else What.TAG
-    return script_name(entry.name), entry.name, what, graph, entry.motions
+    return Completion(script_name(entry.name), entry.name, what, graph, entry.motions)
 
 
-def _best(motions: Sequence[str], fits: Mapping[str, float]) -> float:
-    """Return how well the best of some motions fits; infinity if none can be had."""
+def _best(one: Completion, fits: Mapping[str, float]) -> float:
+    """Return how well the best motion of a name fits; infinity if none can be had."""
+    motions = one.motions
     if len(motions) == 1:
         return fits.get(motions[0], inf)
     return min((fits[motion] for motion in motions if motion in fits), default=inf)
@@ -143,8 +166,8 @@ class Surroundings:
     offers: Offers
 
 
-def complete(tokens: Sequence[Token], offset: int, around: Surroundings) -> tuple[Span, tuple[Completion, ...]]:
-    """Return what could be written at an offset, the best first, and the stretch that it takes the place of.
+def complete(tokens: Sequence[Token], offset: int, around: Surroundings) -> Offered:
+    """Return what could be written at an offset, the best first.
 
     Nothing is left out for what has been written of the word: that is up to `fuzzy.matching`.
 
@@ -154,9 +177,10 @@ def complete(tokens: Sequence[Token], offset: int, around: Surroundings) -> tupl
     """
     cursor = cursor_at(tokens, offset)
     if cursor is None:
-        return Span(offset, offset), ()
-    found = _Completer(around, cursor).all()
-    return cursor.span, tuple(_in_quotes(found) if cursor.quoted else found)
+        return Offered(Span(offset, offset), ())
+    completer = _Completer(around, cursor)
+    found = chain.from_iterable(completer.all())
+    return Offered(cursor.span, tuple(_in_quotes(found) if cursor.quoted else found), completer.fits)
 
 
 def _in_quotes(found: Iterable[Completion]) -> Iterator[Completion]:
@@ -169,21 +193,24 @@ def _in_quotes(found: Iterable[Completion]) -> Iterator[Completion]:
 
 @dataclass(frozen=True, slots=True)
 class _Completer:
+    """Finds what could be written, in stretches: there may be thousands of names, kept as they are offered."""
+
     around: Surroundings
     cursor: Cursor
+    fits: dict[str, Mapping[str, float]] = field(default_factory=dict)
 
-    def all(self) -> Iterator[Completion]:
+    def all(self) -> Iterator[Iterable[Completion]]:
         before = self.cursor.before
         types = accepted(before)
         if types is None:
             return
         if before and before[-1].type in ("INTEGER", "DECIMAL"):
-            yield from (Completion(unit, unit, What.UNIT) for unit in _UNITS if "UNIT" in types)
+            yield (Completion(unit, unit, What.UNIT) for unit in _UNITS if "UNIT" in types)
             return
         if types & _NAMES:
             yield from self._names(before)
         if not before or self._qualifier(_expression(before)) is None or before[-1].type not in _NAMES:
-            yield from self._words(types)
+            yield self._words(types)
 
     # --- words ---
 
@@ -192,9 +219,9 @@ class _Completer:
         for terminal, says in WORDS.items():
             if terminal in _TOP_LEVEL and self.cursor.nested:
                 continue
-            if terminal == "WITH" and not self._leaves_room(self.cursor.before or self.cursor.last):
-                continue
             if terminal in types or (terminal in continuing and terminal not in _STATEMENT_WORDS):
+                if terminal == "WITH" and not self._leaves_room(self.cursor.before or self.cursor.last):
+                    continue
                 yield Completion(terminal.lower(), terminal.lower(), What.WORD, says=says)
 
     def _leaves_room(self, motion: Sequence[Token]) -> bool:
@@ -203,16 +230,16 @@ class _Completer:
 
     # --- names ---
 
-    def _names(self, before: tuple[Token, ...]) -> Iterator[Completion]:
+    def _names(self, before: tuple[Token, ...]) -> Iterator[Iterable[Completion]]:
         match [token.type for token in before]:
             case ["LET", *rest] if "EQUALS" not in rest:
                 return
             case ["USE"]:
                 return
             case ["END"]:
-                yield from self._ends()
+                yield self._ends()
             case [*_, "WAIT" | "FOR"]:
-                yield from self._durations(before)
+                yield self._parameters_of(before)
             case _:
                 yield from self._motions(before)
 
@@ -223,15 +250,12 @@ class _Completer:
                 motions = tuple(self.around.state.parts[graph].motions)
                 yield _graph(graph, f"plays {', '.join(motions)}" if len(motions) == 1 else "runs on its own")
 
-    def _durations(self, before: Sequence[Token]) -> Iterator[Completion]:
-        yield from self._parameters_of(before)
-
-    def _motions(self, before: Sequence[Token]) -> Iterator[Completion]:
+    def _motions(self, before: Sequence[Token]) -> Iterator[Iterable[Completion]]:
         """Yield what could begin or go on with a motion expression."""
         own = _expression(before)
         graph = self._qualifier(own)
         if graph is not None:
-            yield from self.around.offers.on(graph, self._above(graph, own))
+            yield self._on(graph, self._above(graph, own))
             return
         if own and own[-1].type in _NAMES | {"RIGHT"}:
             return  # A word comes next.
@@ -241,29 +265,37 @@ class _Completer:
             return
         rooms = self._rooms_below(left)
         yield from self._unqualified(rooms, set())
-        yield from self._parameters_of(before)
-        yield from self._definitions()
-        yield from (_graph(graph, _part_says(graph, self.around.names)) for graph, _ in rooms)
+        yield self._parameters_of(before)
+        yield self._definitions()
+        yield (_graph(graph, _part_says(graph, self.around.names)) for graph, _ in rooms)
         if rooms:
-            yield _graph(SUB, f"the part below: {rooms[0][0]}")
+            yield (_graph(SUB, f"the part below: {rooms[0][0]}"),)
 
-    def _anywhere(self, before: Sequence[Token]) -> Iterator[Completion]:
+    def _anywhere(self, before: Sequence[Token]) -> Iterator[Iterable[Completion]]:
         """Yield what a command may begin with: what the whole body does first, then what parts may do as it is."""
         names = self.around.names
-        yield from self.around.offers.on(names.root, self._playing(names.root))
-        yield from self._parameters_of(before)
-        yield from self._definitions()
+        yield self._on(names.root, self._playing(names.root))
+        yield self._parameters_of(before)
+        yield self._definitions()
         allowed = [graph for graph in names.all_levels()[1:] if self._playing(graph) & names.motion_set(graph)]
-        yield from (_graph(graph, _part_says(graph, names)) for graph in allowed)
-        known = {entry.name for entry in names.entries(names.root)}
-        yield from self._unqualified([(graph, self._playing(graph)) for graph in allowed], known)
+        yield (_graph(graph, _part_says(graph, names)) for graph in allowed)
+        rooms = [(graph, self._playing(graph)) for graph in allowed]
+        yield from self._unqualified(rooms, set(names.spellings_on(names.root)))
 
-    def _unqualified(self, rooms: Iterable[Below], known: set[str]) -> Iterator[Completion]:
+    def _unqualified(self, rooms: Sequence[Below], known: set[str]) -> Iterator[Iterable[Completion]]:
         """Yield the names on some graphs that mean these without a graph's name: each on the first that has it."""
-        for graph, above in rooms:
-            own = [one for one in self.around.offers.on(graph, above) if one.name not in known]
-            known |= {one.name for one in own}
-            yield from own
+        for number, (graph, above) in enumerate(rooms, start=1):
+            own = self._on(graph, above)
+            if known:
+                own = tuple([one for one in own if one.name not in known])
+            yield own
+            if number < len(rooms):
+                known |= {one.name for one in own}
+
+    def _on(self, graph: str, above: Collection[str]) -> Sequence[Completion]:
+        """Return the names on a graph, and note how well its motions fit."""
+        found, self.fits[graph] = self.around.offers.on(graph, above)
+        return found
 
     def _parameters_of(self, before: Sequence[Token]) -> Iterator[Completion]:
         return (Completion(script_name(name), name, What.PARAMETER) for name in _parameters(before))

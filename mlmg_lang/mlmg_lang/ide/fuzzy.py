@@ -4,32 +4,44 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable
+from itertools import compress, tee
 from typing import TypeVar
 
 T = TypeVar("T")
 
 
-def matching(word: str, offered: Iterable[T], name: Callable[[T], str]) -> list[T]:
+def matching(word: str, offered: Iterable[T], name: Callable[[T], str], most: int | None = None) -> list[T]:
     """Return what has the letters of a word in its name, in their order; case does not count.
 
     First come names that begin with the word, then those in which a part begins with it, then those that hold it, then
     the others; what is alike in that keeps its order.
+
+    Parameters
+    ----------
+    most : where more than so many begin with the word, all further ones are left out.
     """
+    everything = list(offered)
     if not word:
-        return list(offered)
+        return everything
     wanted = word.casefold()
-    letters = re.compile(".*?".join(map(re.escape, wanted)), re.DOTALL)
+    names, again = tee(map(str.casefold, map(name, everything)))
     begins: list[T] = []
     part_begins: list[T] = []
     holds: list[T] = []
     others: list[T] = []
-    for one in offered:
-        folded = name(one).casefold()
+    for one, folded in compress(zip(everything, names, strict=False), map(_letters(wanted).match, again)):
         at = folded.find(wanted)
         if at == 0:
             begins.append(one)
-        elif at > 0:
-            (holds if folded[at - 1].isalnum() else part_begins).append(one)
-        elif letters.search(folded):
+            if most is not None and len(begins) > most:
+                return begins
+        elif at < 0:
             others.append(one)
+        else:
+            (holds if folded[at - 1].isalnum() else part_begins).append(one)
     return begins + part_begins + holds + others
+
+
+def _letters(word: str) -> re.Pattern[str]:
+    """Return what matches texts with the letters of a word in their order: each where it comes first, tried once."""
+    return re.compile("".join(f"[^{sign}]*+{sign}" for sign in map(re.escape, word)))

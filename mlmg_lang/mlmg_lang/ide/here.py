@@ -4,14 +4,15 @@ from __future__ import annotations
 
 from bisect import bisect_left, bisect_right
 from collections.abc import Iterator, Sequence
-from itertools import chain, compress
-from operator import attrgetter
+from dataclasses import dataclass, replace
+from itertools import chain
 from typing import Final
 
-from mlmg_lang.analysis import Analysis, InPieces
+from mlmg_lang.analysis import Analysis, InPieces, Question
 from mlmg_lang.ide.cursor import cursor_at
+from mlmg_lang.moving import by, moved
 from mlmg_lang.parsing.tokens import Token
-from mlmg_lang.pieces import Piece, all_of
+from mlmg_lang.pieces import Piece
 from mlmg_lang.planning import flow
 from mlmg_lang.planning.names import Names
 from mlmg_lang.source import Source, Span
@@ -28,42 +29,71 @@ def tokens_around(analysis: Analysis, offset: int) -> tuple[Token, ...]:
     starts, lines = made.places.line_starts, made.lines
     at = max(bisect_right(starts, offset) - 1, 0)
     first = next((number for number in range(at - 1, -1, -1) if lines[number].solid), 0)
-    before, behind = (lines[part] for part in _around(made, offset, first, at + 2))
-    parts = (_braces(before), lines[first : at + 2], _braces(behind))
-    return made.now(tuple(all_of(chain.from_iterable(parts), "tokens")))
+    before, behind = _around(made, offset, first, at + 2)
+    numbers = (*_braces(lines, before), *range(first, min(at + 2, len(lines))), *_braces(lines, behind))
+    return tuple(chain.from_iterable(_tokens(lines[one], starts[one]) for one in numbers))
 
 
-def _around(made: InPieces, offset: int, first: int, end: int) -> tuple[slice, slice]:
+def _around(made: InPieces, offset: int, first: int, end: int) -> tuple[range, range]:
     """Return the lines of the block at an offset that stand before and behind some."""
     starts = made.places.starts
     at = max(bisect_right(starts, offset) - 1, 0)
     whole = (bisect_left(made.places.line_starts, one) for one in starts[at : at + 2])
-    return slice(min(next(whole), first), first), slice(end, next(whole, end))
+    return range(min(next(whole), first), first), range(end, next(whole, end))
 
 
-def _braces(lines: Sequence[Piece]) -> Iterator[Piece]:
-    """Return those of some lines that have braces with partners in others."""
-    return compress(lines, map(attrgetter("marks"), lines))
+def _braces(lines: Sequence[Piece], among: range) -> Iterator[int]:
+    """Yield those of some lines that have braces with partners in others."""
+    return (number for number in among if lines[number].marks)
 
 
-def state_before(analysis: Analysis, offset: int, names: Names) -> flow.State:
+def _tokens(line: Piece, start: int) -> tuple[Token, ...]:
+    """Return the tokens of a line where it stands now."""
+    return moved(line.tokens, by(start - line.address)) if start != line.address else line.tokens
+
+
+@dataclass(frozen=True, slots=True)
+class Before:
+    """What may be playing before a statement.
+
+    Attributes
+    ----------
+    script : that ends with the statement, and the files that it uses. question : what that was analysed against.
+    """
+
+    script: Source
+    question: Question
+    state: flow.State
+
+
+def state_before(analysis: Analysis, offset: int, names: Names, known: Before | None = None) -> Before:
     """Return what may be playing before the statement at an offset, whatever is written of it, and after it.
 
     It is what would be playing before any other statement there, if the script ended with it.
+
+    Parameters
+    ----------
+    known : what was found last: it is the same as long as nothing but the statement is edited.
     """
+    start = statement_start(tokens_around(analysis, offset), offset)
+    text = analysis.source.text[:start] + _STANDS_FOR_ANY
+    script = replace(analysis.source, text=text + _closing(tokens_around(analysis, start), start))
+    if known is not None and known.question is analysis.question and known.script == script:
+        return known
+    state = _played_before(analysis, Source(script.text, script.name), Span(start, len(text)))
+    return Before(script, analysis.question, state or flow.unknown(names))
+
+
+def _played_before(analysis: Analysis, script: Source, statement: Span) -> flow.State | None:
+    """Return what may be playing before the last statement of a script that is much the same as one analysed."""
     from mlmg_lang.front_end import analyse_again
 
-    start = statement_start(tokens_around(analysis, offset), offset)
-    before = analysis.source.text[:start]
-    text = before + _STANDS_FOR_ANY
-    span = Span(start, len(text))
-    cut_off = analyse_again(analysis, Source(text + _closing(analysis, start), analysis.source.name)).ready
-    at = bisect_right(cut_off.places.starts, start) - 1
+    cut_off = analyse_again(analysis, script).ready
+    at = bisect_right(cut_off.places.starts, statement.start) - 1
     if not 0 <= at < len(cut_off.played):
-        return flow.unknown(names)
+        return None
     states = cut_off.played[at].states
-    known = (state for place, state in states.items() if cut_off.now(place) == span)
-    return next(known, None) or flow.unknown(names)
+    return next((state for place, state in states.items() if cut_off.now(place) == statement), None)
 
 
 def statement_start(tokens: tuple[Token, ...], offset: int) -> int:
@@ -74,10 +104,10 @@ def statement_start(tokens: tuple[Token, ...], offset: int) -> int:
     return cursor.before[0].span.start if cursor.before else cursor.span.start
 
 
-def _closing(analysis: Analysis, offset: int) -> str:
-    """Return the braces that close the blocks around an offset."""
+def _closing(tokens: tuple[Token, ...], offset: int) -> str:
+    """Return the braces that close the blocks around an offset; `tokens`: those around it."""
     depth = 0
-    for token in tokens_around(analysis, offset):
+    for token in tokens:
         if token.span.start < offset:
             depth = max(0, depth + (token.type == "OPEN") - (token.type == "CLOSE"))
     return "\n}" * depth

@@ -36,7 +36,7 @@ def offers(reference: Catalog) -> Callable[..., list[Completion]]:
         names = Names(library)
         definitions = analyse(Source(f"{defined}\n"), library).definitions
         around = Surroundings(names, definitions, flow.begin(names, playing), Offers(names, InOrder(names)))
-        return list(complete(tokenize(Source(before + after)), len(before), around)[1])
+        return list(complete(tokenize(Source(before + after)), len(before), around).found)
 
     return ask
 

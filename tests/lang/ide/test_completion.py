@@ -9,7 +9,7 @@ import pytest
 from mlmg_lang.catalog import Catalog
 from mlmg_lang.front_end import analyse
 from mlmg_lang.ide.completion import Completion, What
-from mlmg_lang.source import Source
+from mlmg_lang.source import Source, Span
 
 Texts = Callable[..., list[str]]
 Offers = Callable[..., list[Completion]]
@@ -154,13 +154,13 @@ def test_what_has_been_used_more_comes_first_among_equals(reference: Catalog) ->
     definitions = analyse(Source(""), reference).definitions
     offers = Offers(names, Alike(), {"TALK": 3, "Walk_02": 1})
     around = Surroundings(names, definitions, flow.begin(names, "Idle_01"), offers)
-    assert [one.text for one in complete((), 0, around)[1]][:2] == ["TALK", "Walk_02"]
+    assert [one.text for one in complete((), 0, around).found][:2] == ["TALK", "Walk_02"]
 
 
 def test_names_are_ranked_by_the_best_of_their_motions_then_by_use_then_as_the_library_has_them(
     reference: Catalog,
 ) -> None:
-    from mlmg_lang.ide.completion import Offers
+    from mlmg_lang.ide.completion import Offered, Offers
     from mlmg_lang.planning.names import Names
 
     class Fitting:
@@ -176,8 +176,9 @@ def test_names_are_ranked_by_the_best_of_their_motions_then_by_use_then_as_the_l
             for at, entry in enumerate(names.entries(names.root))
             if any(motion in fits for motion in entry.motions)
         ]
-        found = Offers(names, Fitting(), uses).on(names.root, ())
-        assert [(one.fit, one.name) for one in found] == [(fit, name) for fit, _, _, name in sorted(known)]
+        found = Offers(names, Fitting(), uses).on(names.root, ()).found
+        told = Offered(Span(0, 0), found, {names.root: fits})
+        assert [(told.fit(one), one.name) for one in found] == [(fit, name) for fit, _, _, name in sorted(known)]
 
 
 def test_whatever_is_offered_for_a_finished_motion_is_understood(texts: Texts, left_hand: Catalog) -> None:

@@ -31,3 +31,17 @@ def test_nothing_written_finds_all_and_other_letters_nothing() -> None:
 
 def test_signs_are_letters_too() -> None:
     assert matching(".*", NAMES, str) == []
+
+
+def test_letters_are_looked_for_once_where_they_come_first() -> None:
+    word = "a" * 30
+    assert matching(f"{word}b", [word * 1000], str) == []
+    assert matching("aab", ["aaab", "abab", "ab"], str) == ["aaab", "abab"]
+    assert matching("^-]", ["x^-]", "^-", "x^y-z]"], str) == ["x^-]", "x^y-z]"]
+
+
+def test_where_enough_begin_with_the_word_the_rest_is_left_out() -> None:
+    names = ["a1", "b_a", "a2", "a3", "a4"]
+    assert matching("a", names, str, 4) == ["a1", "a2", "a3", "a4", "b_a"]
+    assert matching("a", names, str, 2) == ["a1", "a2", "a3"]
+    assert matching("", names, str, 2) == names

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 
 from mlmg_lang.catalog import Catalog
-from mlmg_lang.front_end import analyse, analyse_again
+from mlmg_lang.front_end import analyse, analyse_again, analyse_for
 from mlmg_lang.ide.here import state_before, statement_start, tokens_around
 from mlmg_lang.planning.names import Names
 from mlmg_lang.source import Source
@@ -15,7 +17,7 @@ def playing(text: str, library: Catalog, graph: str = "Full-Body") -> set[str]:
     """Return what may drive a graph before the statement at `|`."""
     offset = text.index("|")
     analysis = analyse(Source(text.replace("|", "", 1)), library)
-    part = state_before(analysis, offset, Names(library)).parts.get(graph)
+    part = state_before(analysis, offset, Names(library)).state.parts.get(graph)
     return set() if part is None else set(part.motions)
 
 
@@ -48,9 +50,40 @@ def test_it_is_the_same_after_an_edit(reference):
     again = analyse_again(before, Source(text))
     names = Names(reference)
     fresh = analyse(Source(text), reference)
-    assert {graph: part.motions for graph, part in state_before(again, len(text), names).parts.items()} == {
-        graph: part.motions for graph, part in state_before(fresh, len(text), names).parts.items()
+    assert {graph: part.motions for graph, part in state_before(again, len(text), names).state.parts.items()} == {
+        graph: part.motions for graph, part in state_before(fresh, len(text), names).state.parts.items()
     }
+
+
+def test_it_is_found_out_once_while_the_statement_is_written(reference):
+    names = Names(reference)
+    text = "IDLE\nrepeat 2 {\nWalk_01\n"
+    analysis = analyse(Source(f"{text}W\nIDLE\n}}\n"), reference)
+    first = state_before(analysis, len(text), names)
+    again = analyse_again(analysis, Source(f"{text}WALK wi\nTALK\n}}\n"))
+    assert state_before(again, len(text) + 7, names, first) is first
+    other = analyse_again(again, Source(f"{text.replace('Walk_01', 'Walk_02')}WALK wi\nTALK\n}}\n"))
+    assert set(state_before(other, len(text) + 7, names, first).state.parts["Full-Body"].motions) == {"Walk_02"}
+
+
+def test_it_is_found_out_again_with_another_library_or_in_other_used_files(reference, left_hand):
+    text = 'use "own.ms"\nstroll\n'
+
+    class Own:
+        def __init__(self, says):
+            self.says = says
+
+        def find(self, path, user):
+            return Source(f"let stroll = {self.says}\n", path), ()
+
+    one = analyse(Source(text), reference, files=Own("Walk_01"))
+    known = state_before(one, len(text), Names(reference))
+    two = analyse_for(Source(text), replace(one.question, files=Own("Walk_02")))
+    assert set(state_before(two, len(text), Names(reference), known).state.parts["Full-Body"].motions) == {"Walk_02"}
+    again = analyse_for(replace(Source(text), used=()), replace(one.question, files=Own("Walk_02")))
+    same_question = replace(again, question=one.question)
+    found = state_before(same_question, len(text), Names(reference), known)
+    assert set(found.state.parts["Full-Body"].motions) == {"Walk_02"}
 
 
 def test_the_statement_begins_where_its_first_word_does():

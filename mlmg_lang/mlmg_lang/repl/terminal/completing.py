@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
+from operator import attrgetter
 from pathlib import Path
 from typing import Final
 
@@ -61,10 +62,12 @@ class ScriptCompleter(Completer):
             yield from self._of_script(text, offset)
 
     def _of_script(self, text: str, offset: int) -> Iterator[Shown]:
-        span, offered = complete(tokenize(Source(text)), offset, self._surroundings())
-        word = text[span.start : offset].lstrip('"')
-        for rank, one in enumerate(matching(word, offered, _name)[:MOST_SHOWN], 1):
-            yield Shown(one.text, span.start - offset, display=one.name, display_meta=self._meta(one, rank))
+        offered = complete(tokenize(Source(text)), offset, self._surroundings())
+        begin = offered.span.start
+        word = text[begin:offset].lstrip('"')
+        for rank, one in enumerate(matching(word, offered.found, attrgetter("name"), MOST_SHOWN)[:MOST_SHOWN], 1):
+            meta = self._meta(one, rank, offered.fit(one))
+            yield Shown(one.text, begin - offset, display=one.name, display_meta=meta)
 
     def _surroundings(self) -> Surroundings:
         """Return what is completed against; kept until something is played."""
@@ -73,24 +76,24 @@ class ScriptCompleter(Completer):
             self._known = (session, session.turns, surroundings_of(session, self.uses))
         return self._known[2]
 
-    def _meta(self, one: Completion, rank: int) -> str:
+    def _meta(self, one: Completion, rank: int, fit: float | None) -> str:
         if one.graph is None:
             return one.says
         library = self.desk.session.library
         seconds = sum(library.n_frames(motion) for motion in one.motions[:1000]) / library.frame_rate
         n = len(one.motions)
         what = f"{n} motion{'' if n == 1 else 's'}, {seconds:.0f} s" if one.what is What.TAG else f"{seconds:.0f} s"
-        return f"{one.graph}  {what}  {rank}. {self._fit(one)}"
+        return f"{one.graph}  {what}  {rank}. {self._fit(one, fit)}"
 
-    def _fit(self, one: Completion) -> str:
-        if one.fit is None:
+    def _fit(self, one: Completion, fit: float | None) -> str:
+        if fit is None:
             return ""
         session = self.desk.session
         if one.graph == session.names.root:
             if one.what is What.MOTION and session.state is None and session.start is None:
                 return "starts in it"
-            return "plays" if one.fit == 0 else f"in {one.fit:.1f} s"
-        return f"OMS {one.fit:.2f}"
+            return "plays" if fit == 0 else f"in {fit:.1f} s"
+        return f"OMS {fit:.2f}"
 
     # --- commands with a dot ---
 
@@ -132,10 +135,6 @@ def surroundings_of(session: Session, uses: Counter[str]) -> Surroundings:
     definitions = session.analyse("").definitions
     offers = Offers(session.names, StageFits(session.library, stage), uses)
     return Surroundings(session.names, definitions, state, offers)
-
-
-def _name(one: Completion) -> str:
-    return one.name
 
 
 def _plain(word: str, offered: Iterable[str]) -> Iterator[Shown]:
