@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 
 from mlmg_lang.explaining.explanation import Choose, Command, End, Explanation, Layer, Repeat, Statement, Wait
-from mlmg_lang.explaining.text import seconds, share
+from mlmg_lang.explaining.wording import seconds, share
 from mlmg_lang.rendering.wording import safe
 from mlmg_lang.spelling import joined
 

@@ -12,6 +12,8 @@ from mlmg_lang.diagnostics import Severity
 
 BLUE: Final = "34"
 BOLD: Final = "1"
+DIM: Final = "2"
+GREEN: Final = "32"
 SEVERITIES: Final[Mapping[Severity, str]] = MappingProxyType(
     {Severity.ERROR: "31", Severity.WARNING: "33", Severity.HINT: "36"}
 )

@@ -10,7 +10,7 @@ from mlmg_lang.diagnostics import Diagnostic, has_errors
 from mlmg_lang.explaining.explanation import Event
 from mlmg_lang.explaining.tree import table
 from mlmg_lang.rendering import render_full
-from mlmg_lang.rendering.colour import BLUE, Painter
+from mlmg_lang.rendering.colour import BLUE, DIM, Painter
 from mlmg_lang.rendering.json_list import entries_of
 from mlmg_lang.rendering.wording import safe
 from mlmg_lang.repl.desk import Desk
@@ -20,7 +20,6 @@ from mlmg_lang.source import Source
 
 MOST_DEEDS: Final = 12
 """So many statements of one entry are told of; a loop may execute many more."""
-_DIM: Final = "2"
 _RED: Final = "31"
 
 
@@ -62,7 +61,7 @@ class Telling:
         for graph in dict.fromkeys((*told, *(event.graph for event in went.events))):
             events = [event for event in went.events if event.graph == graph]
             yield f"{paint(graph, BLUE)}  {self._arrival(told.get(graph), graph, went.begin_s, events)}"
-            yield from (f"    {paint(line, _DIM)}" for line in table(_row(event, went.begin_s) for event in events))
+            yield from (f"    {paint(line, DIM)}" for line in table(_row(event, went.begin_s) for event in events))
         if went.lasted_s:
             yield f"then {went.lasted_s:.1f} s" if told else f"{went.lasted_s:.1f} s pass"
 

@@ -8,8 +8,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mlmg_lang.explaining.text import render_text, seconds, share
+from mlmg_lang.explaining.text import render_text
 from mlmg_lang.explaining.tree import Tree, n_columns, table, tree_lines
+from mlmg_lang.explaining.wording import seconds, share
 from mlmg_lang.planning.estimate import Estimate, exactly
 from mlmg_lang.rendering.colour import Painter
 
