@@ -94,6 +94,7 @@ class InPieces:
     pieces : those of them that stand in no block, and the blocks whole.
     places : where addresses are now.
     defined : what is wrong with its definitions. unused : which of them are not used.
+    untold : says where mistakes begin that are not told, if there are too many.
     start : the motion that it starts in; empty without a library.
     resolution : what it plays, if all of it was resolved together.
     played : else, what each of `pieces` plays; none without a library.
@@ -109,6 +110,7 @@ class InPieces:
     gathered: Gathered
     defined: tuple[Diagnostic, ...]
     unused: tuple[Diagnostic, ...]
+    untold: tuple[Diagnostic, ...]
     start: str
     resolution: Resolution | None
     played: Sequence[Played]

@@ -219,11 +219,14 @@ def touched(before: InPieces, change: Change) -> list[int]:
         return sorted(new)
     known = ((list(of.lets), of.unread) for of in (one.gathered.definitions for one in (before, change.made)))
     same = next(known) == next(known)
-    others = (at for at in range(len(lines)) if at not in new)
     names = change.names
-    return sorted(
-        (*new, *(at for at in others if (lines[at].said and not same) or not names.isdisjoint(lines[at].names)))
-    )
+    others = (at for at in range(len(lines)) if at not in new)
+    return sorted((*new, *(at for at in others if _may_mean_else(lines[at], names, same))))
+
+
+def _may_mean_else(line: Piece, names: frozenset[str], same: bool) -> bool:
+    """Return whether a line uses one of some names, or could be a slip of others; `same`: as many are defined."""
+    return (not same and bool(line.said or line.n_named)) or not names.isdisjoint(line.names)
 
 
 @dataclass(frozen=True, slots=True)

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from bisect import bisect_right
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import replace
+from itertools import compress
 from operator import attrgetter
 from typing import TYPE_CHECKING
 
@@ -18,7 +19,7 @@ from mlmg_lang.following import without_following
 from mlmg_lang.parsing.case import guess_case
 from mlmg_lang.parsing.lookalikes import opens_or_closes
 from mlmg_lang.parsing.nesting import Around
-from mlmg_lang.parsing.parse import read_marks
+from mlmg_lang.parsing.parse import MAX_MISTAKES, read_marks
 from mlmg_lang.parsing.quotes import requoted
 from mlmg_lang.parsing.structure import check_definition, check_structure, misplaced
 from mlmg_lang.parsing.syntax import BrokenDefinition, Item, Let, Script, Use
@@ -34,9 +35,6 @@ if TYPE_CHECKING:
     from mlmg_lang.planning import typed
     from mlmg_lang.planning.names import Names
     from mlmg_lang.planning.plan import Planner
-
-_MAX_FOUND = 200
-"""With so many diagnostics of texts and names, stages may have given up, which depends on the whole script."""
 
 __all__ = ["Analysis", "Question", "analyse", "analyse_again", "analyse_for"]
 
@@ -79,10 +77,12 @@ def analyse_for(source: Source, question: Question) -> Analysis:
     read = lines_of(len(source.text), tokens, read_marks(source, tokens))
     gathered = gather(source, _defining(read, grouped(read, (), 0)[0]), question.files)
     reader = _Reader(question, gathered, gathered.source)
-    lines = [reader.understood(line) for line in read]
+    lines, _ = reader.all_understood(read, range(len(read)))
     room = gathered.source.end + 1
     places = places_of(lines, lines, range(len(source.text) + 1, room))
-    made = InPieces(gathered.source, lines, lines, places, gathered, reader.defined(), (), "", None, (), (), room, 0)
+    made = InPieces(
+        gathered.source, lines, lines, places, gathered, reader.defined(), (), _untold(lines), "", None, (), (), room, 0
+    )
     made = made.grouped(())
     made = replace(made, unused=tuple(_unused(made)))
     found = Found(_read(made))
@@ -120,14 +120,15 @@ class _Reader:
         self._expander = Expander(gathered.definitions)
         self._own = tuple(let.name.text for let in gathered.definitions.lets.values())
         self._frame_rate = None if question.catalog is None else question.catalog.frame_rate
-        self._planner = self._new_planner()
+        self._planners = {explains: self._new_planner(explains) for explains in (True, False)}
 
-    def _new_planner(self) -> Planner | None:
+    def _new_planner(self, explains: bool = True) -> Planner | None:
         if self._question.names is None or self._frame_rate is None:
             return None
         from mlmg_lang.planning.plan import Planner
 
-        return Planner(self._gathered.definitions, self._question.names, self._frame_rate, self._source)
+        definitions, names = self._gathered.definitions, self._question.names
+        return Planner(definitions, names, self._frame_rate, self._source, explains=explains)
 
     def defined(self) -> tuple[Diagnostic, ...]:
         """Return what is wrong with the definitions."""
@@ -138,8 +139,25 @@ class _Reader:
             planner.define(self._gathered.definitions)
         return (*self._gathered.diagnostics, *structural, *(() if planner is None else planner.diagnostics))
 
-    def understood(self, piece: Piece) -> Piece:
-        """Return a piece with what it means."""
+    def all_understood(self, lines: Sequence[Piece], numbers: Collection[int]) -> tuple[list[Piece], list[int]]:
+        """Return pieces with what some of them mean; and which these are, as others may be told of now, or no longer.
+
+        When as many mistakes in names have been told as anybody reads, what is wrong with the next is not worked out.
+        """
+        done, again, n_told = list(lines), [], 0
+        asked = list(map(attrgetter("is_faulty"), lines))
+        for number in numbers:
+            asked[number] = True
+        for at in compress(range(len(lines)), asked):
+            tells = n_told <= MAX_MISTAKES
+            if at in numbers or (lines[at].n_named >= 0) is not tells:
+                done[at] = self._understood(lines[at], tells)
+                again.append(at)
+            n_told += max(done[at].n_named, 0)
+        return done, again
+
+    def _understood(self, piece: Piece, tells: bool) -> Piece:
+        """Return a piece with what it means; `tells`: and with what is wrong with its names."""
         script = Script(piece.items, Span(piece.address, piece.address + piece.size))
         expanded, n_nodes, said = self._expanded(piece)
         said += misplaced(script) if piece.defining else ()
@@ -148,14 +166,24 @@ class _Reader:
             replace(script, items=expanded), self._frame_rate, known.complete, self._own, known.unread
         )
         statements: tuple[typed.Statement, ...] = ()
-        if self._planner is None:
+        planner, is_faulty, n_named = self._planners[tells], False, 0
+        if planner is None:
             said += guess_case(script)
         else:
-            before = len(self._planner.diagnostics)
-            statements = self._planner.body(expanded)
-            said += self._planner.diagnostics[before:]
+            statements = planner.body(expanded)
+            is_faulty, named = planner.take()
+            n_named = len(named) if tells else -is_faulty
+            said += named if tells else ()
         told = without_following(said, piece.misread, piece.items) if piece.misread else said
-        return replace(piece, expanded=expanded, n_nodes=n_nodes, said=tuple(told), statements=statements)
+        return replace(
+            piece,
+            expanded=expanded,
+            n_nodes=n_nodes,
+            statements=statements,
+            said=tuple(told),
+            is_faulty=is_faulty,
+            n_named=n_named,
+        )
 
     def _expanded(self, piece: Piece) -> tuple[tuple[Item, ...], int, list[Diagnostic]]:
         """Return what a piece says with what is defined put in, how large that has made it, and what is wrong."""
@@ -192,7 +220,17 @@ def _unused(made: InPieces) -> Iterator[Diagnostic]:
 def _read(made: InPieces) -> tuple[Diagnostic, ...]:
     """Return all that is wrong with the text, the names and the types of a script."""
     blocks = () if made.pieces is made.lines else (piece for piece in made.pieces if isinstance(piece, WholeBlock))
-    return (*_defined(made), *made.unused, *all_of(made.lines, "told"), *all_of(blocks, "told"))
+    return (*_defined(made), *made.unused, *made.untold, *all_of(made.lines, "told"), *all_of(blocks, "told"))
+
+
+def _untold(lines: Sequence[Piece]) -> tuple[Diagnostic, ...]:
+    """Return what says from where on mistakes in names are not told, if there are too many."""
+    first = next((line for line in lines if line.n_named < 0), None)
+    if first is None:
+        return ()
+    from mlmg_lang.planning.plan import too_many
+
+    return (too_many(first.items[0].span),)
 
 
 def _defined(made: InPieces) -> Sequence[Diagnostic]:
@@ -242,18 +280,23 @@ def _sorted(diagnostics: tuple[Diagnostic, ...]) -> tuple[Diagnostic, ...]:
 def _edited(previous: Analysis, source: Source) -> Analysis | None:
     """Return the analysis after an edit; None if all has to be analysed afresh."""
     question, before = previous.question, previous.ready
-    if source.used or len(previous.found.read) >= _MAX_FOUND or len(source.text) >= MAX_TOKENS:
+    if source.used or _has_endless_mistakes(previous.made) or len(source.text) >= MAX_TOKENS:
         return None
     change = _read_again(before, source)
     if change is None:
         return None
     change = _understood_again(before, change, question)
     found = Found(_read(change.made))
-    if len(found.read) >= _MAX_FOUND or _is_too_large(change.made):
+    if _has_endless_mistakes(change.made) or _is_too_large(change.made):
         return None
     if question.names is None or question.catalog is None:
         return _told(question, found, change.made)
     return _replayed((question.names, question.catalog), question, found, before, change)
+
+
+def _has_endless_mistakes(made: InPieces) -> bool:
+    """Return whether not all of the text may have been read, which depends on all before it."""
+    return sum(map(len, map(attrgetter("misread"), made.lines))) >= MAX_MISTAKES
 
 
 def _is_too_large(made: InPieces) -> bool:
@@ -330,12 +373,10 @@ def _understood_again(before: InPieces, change: Change, question: Question) -> C
     """Return what an edit has changed, with what it means."""
     from mlmg_lang.editing import touched
 
-    made, numbers = change.made, touched(before, change)
+    made = change.made
     reader = _Reader(question, made.gathered, made.addressed)
-    lines = list(made.lines)
-    for number in numbers:
-        lines[number] = reader.understood(lines[number])
-    made = replace(made, lines=lines).grouped(before.pieces)
+    lines, numbers = reader.all_understood(made.lines, frozenset(touched(before, change)))
+    made = replace(made, lines=lines, untold=_untold(lines)).grouped(before.pieces)
     if made.gathered is not before.gathered:
         made = replace(made, defined=reader.defined())
     if made.gathered is not before.gathered or change.moves_braces(before) or not change.uses_the_same(before):

@@ -50,6 +50,8 @@ class Piece:
     expanded : its items with what is defined put in. n_nodes : how large that has made them.
     statements : none without a library.
     said : what is wrong with what it means.
+    is_faulty : whether something may be wrong with its names.
+    n_named : how much is said of them; -1 if it was not worked out, as there is too much before it.
     """
 
     size: int
@@ -63,6 +65,8 @@ class Piece:
     n_nodes: int = 0
     statements: tuple[typed.Statement, ...] = ()
     said: tuple[Diagnostic, ...] = ()
+    is_faulty: bool = False
+    n_named: int = 0
 
     n_lines = 1
     has_own_address = False

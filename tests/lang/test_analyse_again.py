@@ -276,6 +276,50 @@ def test_after_any_edits_lines_are_joined_and_parted_as_afresh(
         analysis = check(analysis, text, None)
 
 
+MISNAMED = (
+    *("WLAK\n", "Upper-Body WLAK for 1 sec\n", "Upper WALK\n", "walk01 for 2 sec\n", "Left-Hand WALK\n", "xx\n"),
+    *("G()\n", "WLAK WLAK\n", "IDLE and WALK\n", "end Uper-Body\n", "repeat 2 { WLAK; WALK; xx }\n", "let x = WLAK\n"),
+)
+MISWRITTEN = (
+    *("WALK for\n", "WALK for for 2 sec\n", "WALK or\n", "“WALK” IDLE\n", "WALK } IDLE\n", "WALK)\n", "WLAK for\n"),
+    *("repeat 2 { WLAK; IDLE for\n", "repeat { WALK; wlk }\n", "let y = x for\n", "let = \n", "}\n"),
+    *("WALK; WALK for\n", "WALK\nWALK\nWALK\nWALK\nWALK for\n"),
+)
+
+
+def line_edits(*lines: str) -> st.SearchStrategy[list[tuple[int, int, str]]]:
+    return st.lists(st.tuples(st.integers(0, 10_000), st.integers(0, 3), st.sampled_from(("", *lines))), max_size=8)
+
+
+@pytest.mark.parametrize("mistaken", [MISNAMED, MISWRITTEN, (*MISNAMED, *MISWRITTEN, *BRACES)])
+@many
+@given(data=st.data(), name=LIBRARIES, most=st.integers(1, 6))
+def test_of_too_many_mistakes_the_same_are_told_as_afresh(
+    libraries: Mapping[str, Any], mistaken: tuple[str, ...], data: st.DataObject, name: str, most: int
+) -> None:
+    lines = (*LINES, *mistaken, *mistaken, *DEFINING)
+    text = "".join(data.draw(st.lists(st.sampled_from(lines), max_size=20)))
+    with pytest.MonkeyPatch.context() as patch:
+        for module in ("parsing.parse", "planning.plan", "front_end"):
+            patch.setattr(f"mlmg_lang.{module}.MAX_MISTAKES", most)
+        analysis = analyse(Source(text), libraries[name], None, FILES)
+        for edit in data.draw(line_edits(*lines)):
+            text = with_other_lines(text, edit)
+            analysis = check(analysis, text, libraries[name])
+
+
+def test_an_edit_of_a_script_with_too_many_mistakes_leaves_all_else_as_it_was(libraries: Mapping[str, Any]) -> None:
+    library, text = libraries["reference"], "WALK for 2 sec\nWLAK for 2 sec\n" * 300
+    before = analyse(Source(text), library)
+    assert [one.code for one in before.diagnostics if one.code != "MS021"] == ["MS006"]
+    assert len(before.diagnostics) == 202
+    again = check(before, text.replace("2", "3", 1), library)
+    assert n_kept(before, again) == len(before.ready.pieces) - 1
+    mended = check(again, text.replace("WLAK", "WALK", 1), library)
+    assert n_kept(again, mended) == len(before.ready.pieces) - 3
+    check(mended, text, library)
+
+
 STRAY = "WALK\nIDLE\n(WALK\nx } y\nIDLE)\nWALK\n"
 """The brace parts the lines in the parentheses where it can close a block, and is only a mistake elsewhere."""
 

@@ -31,6 +31,7 @@ class Scope:
     parameters : of the definition that the expression stands in.
     own : all definitions of the script, by name: what may have been meant.
     unread : the names of definitions that could not be read.
+    explains : whether it is worked out what is wrong with a name, which takes far longer than to see that it is.
     """
 
     names: Names
@@ -39,6 +40,7 @@ class Scope:
     parameters: frozenset[str] = frozenset()
     own: Mapping[str, syntax.Let] = field(default_factory=dict)
     unread: frozenset[str] = frozenset()
+    explains: bool = True
 
     def defines(self, name: syntax.Name) -> bool:
         """Return whether a name is one of the script's own."""
@@ -54,7 +56,7 @@ class Scope:
 
 @dataclass(frozen=True, slots=True)
 class Unbound:
-    """A name that nothing can be played for; `diagnostic` is None where that is reported elsewhere."""
+    """A name that nothing can be played for; `diagnostic` is None where that is reported elsewhere, or nowhere."""
 
     diagnostic: Diagnostic | None
 
@@ -103,7 +105,7 @@ def graph_name(name: syntax.Name, scope: Scope) -> Iterator[Unbound]:
     """Yield a name that should be a graph's, if it is not."""
     if is_sub(name) or scope.names.graph(name.text) is not None:
         return
-    if not name.sound or normal(name.text) in scope.unread:
+    if not name.sound or normal(name.text) in scope.unread or not scope.explains:
         yield Unbound(None)
     elif is_shouted(name) and not scope.names.places(name.text):
         yield Unbound(wrong_case(name))
@@ -286,7 +288,10 @@ def _called(node: syntax.Call, name: syntax.Name, scope: Scope) -> Iterator[Unbo
         yield Unbound(None)
         return
     wrong = list(graph_name(name, scope))
-    near = _own_like(name.text, scope.own.values()) if wrong and not scope.names.places(name.text) else ()
+    if not wrong or not scope.explains or scope.names.places(name.text):
+        yield from wrong
+        return
+    near = _own_like(name.text, scope.own.values())
     yield from (Unbound(_unknown_definition(name, near)),) if near else wrong
 
 
@@ -297,7 +302,7 @@ def _motion_name(name: syntax.Name, scope: Scope, on: Sequence[str]) -> Iterator
         return
     if scope.names.places(name.text):
         return
-    if not name.sound or (scope.open and scope.names.graph(name.text) is None):
+    if not name.sound or not scope.explains or (scope.open and scope.names.graph(name.text) is None):
         yield Unbound(None)
     elif is_shouted(name):
         yield Unbound(wrong_case(name))

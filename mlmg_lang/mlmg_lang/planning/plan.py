@@ -12,6 +12,7 @@ from mlmg_lang.diagnostics import Diagnostic, has_errors
 from mlmg_lang.parsing import syntax
 from mlmg_lang.parsing.amounts import seconds_from_quantity, unit_of
 from mlmg_lang.parsing.nesting import Make
+from mlmg_lang.parsing.parse import MAX_MISTAKES
 from mlmg_lang.parsing.structure import is_sub, motion_mistakes
 from mlmg_lang.planning import typed
 from mlmg_lang.planning.binding import Scope, Unbound, graph_hints, graph_name, inexact, spelling_hints, unbound
@@ -21,8 +22,6 @@ from mlmg_lang.source import Source, Span
 from mlmg_lang.spelling import listed, normal
 
 _MAX_COUNT = 10**9
-_MAX_MISTAKES = 200
-"""After so many a script is not meant for this library."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,11 +48,25 @@ def plan(script: syntax.Script, definitions: Definitions, names: Names, frame_ra
 class Planner:
     """Gives statements their types, and collects what is wrong."""
 
-    def __init__(self, definitions: Definitions, names: Names, frame_rate: float, source: Source) -> None:
-        """Take what names can mean; the definitions have been put in already."""
+    def __init__(
+        self, definitions: Definitions, names: Names, frame_rate: float, source: Source, *, explains: bool = True
+    ) -> None:
+        """Take what names can mean; the definitions have been put in already.
+
+        Parameters
+        ----------
+        explains : whether what is wrong is worked out; else types are the same, and what is said of them is not meant
+            to be told.
+        """
         self.diagnostics: list[Diagnostic] = []
+        self._is_faulty = False
         self._scope = Scope(
-            names, frozenset(), not definitions.complete, own=definitions.lets, unread=definitions.unread
+            names,
+            frozenset(),
+            not definitions.complete,
+            own=definitions.lets,
+            unread=definitions.unread,
+            explains=explains,
         )
         self._frame_rate = frame_rate
         self._source = source
@@ -62,6 +75,9 @@ class Planner:
         """Report what is wrong with the names of definitions and the names in them."""
         known = frozenset(definitions.lets)
         for let in definitions.lets.values():
+            if len(self.diagnostics) > MAX_MISTAKES:
+                self._give_up(let.name.span)
+                return
             self.diagnostics += _clashes(let.name, self._scope.names)
             own = frozenset(normal(parameter.name.text) for parameter in let.parameters or ())
             scope = replace(self._scope, definitions=known, parameters=own)
@@ -75,10 +91,16 @@ class Planner:
         """Return the typed statements of a body."""
         return tuple(self._statement(item) for item in items)
 
+    def take(self) -> tuple[bool, tuple[Diagnostic, ...]]:
+        """Return whether anything has been wrong since this was asked last, said or not, and what there is to say."""
+        taken = self._is_faulty or bool(self.diagnostics), tuple(self.diagnostics)
+        self._is_faulty, self.diagnostics = False, []
+        return taken
+
     def _statement(self, item: syntax.Item) -> typed.Statement:
         planned: typed.Statement = typed.Unplanned(item.span)
         match item:
-            case _ if len(self.diagnostics) > _MAX_MISTAKES:
+            case _ if len(self.diagnostics) > MAX_MISTAKES:
                 self._give_up(item.span)
             case syntax.Command():
                 planned = self._command(item)
@@ -95,8 +117,7 @@ class Planner:
 
     def _give_up(self, span: Span) -> None:
         if self.diagnostics[-1].code != "MS006":
-            message = f"more than {_MAX_MISTAKES} mistakes; the names from here on are not looked up"
-            self.diagnostics.append(Diagnostic("MS006", message, span, "is this the right library?"))
+            self.diagnostics.append(too_many(span))
 
     def _command(self, command: syntax.Command) -> typed.Statement:
         before = len(self.diagnostics)
@@ -113,7 +134,7 @@ class Planner:
         wrong = self._report(_written(unbound(motion, self._scope), command))
         if wrong or any(motion_mistakes(motion, complete=not self._scope.open)):
             return None
-        ways = select(motion, self._scope.names, self._source)
+        ways = select(motion, self._scope.names, self._source, explains=self._scope.explains)
         if isinstance(ways, Diagnostic):
             self.diagnostics.append(ways)
             return None
@@ -128,8 +149,9 @@ class Planner:
             found = True
             if one.diagnostic is not None:
                 self.diagnostics.append(one.diagnostic)
-            if len(self.diagnostics) > _MAX_MISTAKES:
+            if len(self.diagnostics) > MAX_MISTAKES or not self._scope.explains:
                 break
+        self._is_faulty = self._is_faulty or found
         return found
 
     def _remarks(self, way: typed.Layering) -> Iterator[Diagnostic]:
@@ -167,6 +189,12 @@ class Planner:
             return typed.Duration(None, None, amount.span)
         cycles = float(amount.number) if unit_of(amount) == "cycles" else None
         return typed.Duration(seconds_from_quantity(amount, self._frame_rate), cycles, amount.span)
+
+
+def too_many(span: Span) -> Diagnostic:
+    """Say that what is wrong with names from a place on is not told."""
+    message = f"more than {MAX_MISTAKES} mistakes; what is wrong with the names from here on is not told"
+    return Diagnostic("MS006", message, span, "is this the right library?")
 
 
 def _written(wrong: Iterable[Unbound], command: Span) -> Iterator[Unbound]:
