@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
-from typing import TypeAlias
+from typing import Final, TypeAlias
 
 from mlmg_lang.planning.names import Names
 
@@ -12,6 +12,8 @@ Setter: TypeAlias = tuple[int, str]
 """The step, by its key (a number that sorts it among all steps), and the graph that it set."""
 Origins: TypeAlias = Mapping[str, frozenset[Setter | None]]
 """By motion that may drive a graph, what may have set it; None for the start, or what could not be understood."""
+_NOBODY: Final[frozenset[Setter | None]] = frozenset((None,))
+"""One for all: where anything may be playing, many of them are compared."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,13 +57,12 @@ class State:
 
 def begin(names: Names, motion: str) -> State:
     """Return the state at the start."""
-    return State({names.root: Part({motion: frozenset((None,))}, True)})
+    return State({names.root: Part({motion: _NOBODY}, True)})
 
 
 def unknown(names: Names) -> State:
     """Return the state in which anything may be playing."""
-    nobody: frozenset[Setter | None] = frozenset((None,))
-    return State({names.root: Part(dict.fromkeys(names.motions(names.root), nobody), True)}, certain=False)
+    return State({names.root: Part(dict.fromkeys(names.motions(names.root), _NOBODY), True)}, certain=False)
 
 
 def joined(states: Iterable[State], names: Names) -> State:
@@ -90,10 +91,16 @@ def _either(a: State, b: State, names: Names) -> State:
 
 
 def _merged(many: Iterable[Origins]) -> Origins:
-    merged: dict[str, frozenset[Setter | None]] = {}
-    for origins in many:
+    """Return what may have set each motion in any of some origins: at least one."""
+    first, *others = many
+    if not others:
+        return first
+    merged = dict(first)
+    for origins in others:
         for motion, setters in origins.items():
-            merged[motion] = merged.get(motion, frozenset()) | setters
+            known = merged.setdefault(motion, setters)
+            if known is not setters:
+                merged[motion] = known | setters
     return merged
 
 

@@ -71,12 +71,18 @@ class Attempt:
         """Return whether a walk on a graph can lead from one of its motions to another."""
         return self.catalog.can_reach(graph, source, target)
 
-    def leads_on(self, graph: str, source: str) -> bool:
-        """Return whether from a motion a candidate can be reached; being one is enough."""
+    def leading_on(self, graph: str, sources: frozenset[str]) -> frozenset[str]:
+        """Return the motions from which a candidate can be reached; being one is enough."""
         left = self.left[graph]
         if graph == self.begins:
-            return bool(left)
-        return source in left or any(self.reaches(graph, source, motion) for motion in left)
+            return sources if left else frozenset()
+        rest = sources.difference(left)
+        reaches = self.catalog.can_reach
+        for motion in left:  # the first is most often enough for all, of which there are many where anything may play
+            if not rest:
+                break
+            rest = frozenset(source for source in rest if not reaches(graph, source, motion))
+        return sources - rest
 
     # --- what drives a graph when its turn comes, if nothing above it changes ---
 
@@ -128,8 +134,9 @@ class Attempt:
         above, own = self.named_above(graph), self.state.parts.get(graph)
         if above is None:
             playing = self.driving(graph) if own is None else own.motions
+            there = playing & self.on(graph)
             can_follow = graph != self.names.root and self.driving(graph) <= set(self.left[graph])
-            return frozenset(m for m in playing & self.on(graph) if can_follow or self.leads_on(graph, m))
+            return there if can_follow else self.leading_on(graph, there)
         kept = own.motions & self.on(graph) if own is not None and self.may_stay(above) else frozenset()
         return self.driving(graph) | kept
 

@@ -38,7 +38,7 @@ def _ends(attempt: Attempt, graph: str, above: str, motion: str) -> frozenset[st
         running = own.motions - own.following
         may_follow = own.following or attempt.may_move(above) or attempt.runs_between(graph, above)
         sources = running | sources if may_follow else running
-    dead = frozenset(source for source in sources if not attempt.leads_on(graph, source))
+    dead = sources - attempt.leading_on(graph, sources)
     return dead if attempt.state.certain or dead == sources else frozenset()
 
 
