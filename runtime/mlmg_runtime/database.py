@@ -87,6 +87,7 @@ def _write_properties(connection: sqlite3.Connection, built: BuiltLibrary, path:
         "start": built.start,
         "skeleton": [asdict(joint) for joint in built.skeleton.joints],
         "warnings": built.warnings,
+        "usual_oms": {graph.name: graph.usual_oms for graph in built.graphs},
         "configuration": None if built.configuration is None else _from(path, built.configuration),
     }
     rows = [(name, json.dumps(value, ensure_ascii=False)) for name, value in properties.items()]

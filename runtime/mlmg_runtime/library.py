@@ -122,7 +122,7 @@ def open_library(path: str | Path) -> Library:
     with open_database(path) as connection:
         properties = read_properties(connection)
         graphs = read_graphs(connection)
-    configuration = properties.get("configuration")
+    configuration = properties["configuration"]
     return Library(
         path=path,
         skeleton=skeleton_from_json(properties["skeleton"]),

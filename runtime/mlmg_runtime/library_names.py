@@ -6,7 +6,8 @@
 from __future__ import annotations
 
 import json
-import struct
+import sys
+from array import array
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -25,6 +26,7 @@ class GraphNames:
     tags : motion -> tags, in configuration order.
     hops : for each pair of motions, row by row, the fewest transitions that lead from the one to the other; else -1.
     oms : the same way, their overall motion similarity.
+    usual_oms : the median overall motion similarity of two different motions; 0 where there are not two.
     forbidden : the same way, 1 where the configuration forbids to go from the one to the other.
     """
 
@@ -32,20 +34,13 @@ class GraphNames:
     tags: Mapping[str, tuple[str, ...]]
     hops: Sequence[int] = field(repr=False)
     oms: Sequence[float] = field(repr=False)
+    usual_oms: float
     forbidden: bytes = field(repr=False)
 
     @cached_property
     def motions(self) -> tuple[str, ...]:
         """Return the motions' names, in configuration order."""
         return tuple(self.tags)
-
-    @cached_property
-    def usual_oms(self) -> float:
-        """Return the median overall motion similarity of two different motions; 0 where there are not two."""
-        own = range(0, len(self.oms), len(self.tags) + 1) if self.tags else ()
-        of_pairs = sorted(value for at, value in enumerate(self.oms) if at not in own)
-        middle = of_pairs[(len(of_pairs) - 1) // 2 : len(of_pairs) // 2 + 1]
-        return sum(middle) / len(middle) if middle else 0.0
 
     def pair(self, one: str, other: str) -> int:
         """Return where a pair of motions stands in `hops`, `oms` and `forbidden`."""
@@ -131,10 +126,14 @@ def open_names(path: str | Path) -> LibraryNames:
         graphs = {}
         for name, parent, *_, forbidden, oms, hops in read_part(connection, "graph"):
             tags = {clip: tuple(json.loads(words)) for graph_of, clip, words in motions if graph_of == name}
-            graphs[name] = GraphNames(parent, tags, _unpacked("q", hops), _unpacked("d", oms), forbidden)
+            between, usual = _unpacked("d", oms), properties["usual_oms"][name]
+            graphs[name] = GraphNames(parent, tags, _unpacked("q", hops), between, usual, forbidden)
     return LibraryNames(path, properties["start"], properties["frame_rate"], graphs, frames)
 
 
-def _unpacked(kind: str, packed: bytes) -> tuple[Any, ...]:
+def _unpacked(kind: str, packed: bytes) -> array[Any]:
     """Return numbers of 8 bytes each, least significant first."""
-    return struct.unpack(f"<{len(packed) // 8}{kind}", packed)
+    numbers = array(kind, packed)
+    if sys.byteorder == "big":
+        numbers.byteswap()
+    return numbers

@@ -5,7 +5,7 @@ import signal
 import sqlite3
 import subprocess
 import sys
-from contextlib import closing, suppress
+from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 
@@ -19,7 +19,7 @@ from mlmg_runtime.built_library import BuiltLibrary
 from mlmg_runtime.database import read_graphs, write_database
 from mlmg_runtime.errors import LibraryError
 from mlmg_runtime.library import Library, open_library
-from mlmg_runtime.library_file import APPLICATION_ID, FORMAT_VERSION, PARTS, checksum_of, open_database
+from mlmg_runtime.library_file import APPLICATION_ID, FORMAT_VERSION, open_database
 
 
 @pytest.fixture(scope="module")
@@ -284,13 +284,3 @@ def test_the_way_to_the_configuration_is_kept_if_it_leads_only_down_or_up(
         assert known is None or known.samefile(folder / configuration)
         files.append((folder / library).read_bytes())
     assert files[0] == files[1]
-
-
-def test_a_library_that_was_built_before_that_was_kept_can_still_be_opened(path: Path) -> None:
-    with closing(sqlite3.connect(path)) as connection, connection:
-        connection.execute("DELETE FROM property WHERE name = 'configuration'")
-        value = checksum_of(connection.execute(PARTS["property"]))
-        connection.execute("UPDATE checksum SET value = ? WHERE part = 'property'", (value,))
-    library = open_library(path)
-    use(library)
-    assert library.configuration is None

@@ -41,7 +41,9 @@ def test_what_reaches_and_what_is_unlike_what_is_as_in_the_library(demo_library)
 
 
 def test_a_motion_that_no_walk_leads_to_cannot_be_reached():
-    graph = GraphNames(None, {"Step": (), "Wave": ()}, hops=(0, -1, 1, 0), oms=(1.0, 3.0, 5.0, 1.0), forbidden=bytes(4))
+    graph = GraphNames(
+        None, {"Step": (), "Wave": ()}, hops=(0, -1, 1, 0), oms=(1.0, 3.0, 5.0, 1.0), usual_oms=4.0, forbidden=bytes(4)
+    )
     names = LibraryNames(Path("a.mlmg"), "Step", 30.0, {"Full-Body": graph}, {"Step": 9, "Wave": 9})
     assert not names.can_reach("Full-Body", "Step", "Wave")
     assert names.can_reach("Full-Body", "Wave", "Step")
@@ -66,7 +68,7 @@ def test_what_is_forbidden_is_as_in_the_library(small_folder, small_configuratio
 
 
 def test_a_graph_of_one_motion_has_nothing_usual():
-    graph = GraphNames(None, {"Step": ()}, hops=(0,), oms=(7.0,), forbidden=bytes(1))
+    graph = GraphNames(None, {"Step": ()}, hops=(0,), oms=(7.0,), usual_oms=0.0, forbidden=bytes(1))
     assert LibraryNames(Path("a.mlmg"), "Step", 30.0, {"Full-Body": graph}, {}).unlikeness(
         "Full-Body", "Step", "Step"
     ) == pytest.approx(0.0)
