@@ -3,20 +3,20 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Final, TypeVar
 
-from mlmg_lang.blocks import WholeBlock, grouped
+from mlmg_lang.blocks import Statement
 from mlmg_lang.catalog import Catalog
+from mlmg_lang.chunks import Chunks, all_of
 from mlmg_lang.definitions.gather import Definitions, Files, Gathered
 from mlmg_lang.diagnostics import Diagnostic, has_errors
 from mlmg_lang.moving import moved
 from mlmg_lang.parsing import syntax
 from mlmg_lang.parsing.tokens import Token
-from mlmg_lang.pieces import Piece, all_of
-from mlmg_lang.places import Addressed, Places, places_of
+from mlmg_lang.pieces import Piece
+from mlmg_lang.places import Addressed, Places
 from mlmg_lang.source import Source, Span
 
 if TYPE_CHECKING:
@@ -90,9 +90,7 @@ class InPieces:
     Attributes
     ----------
     source : with the files that it uses.
-    lines : the pieces that no block lies across.
-    pieces : those of them that stand in no block, and the blocks whole.
-    places : where addresses are now.
+    places : its pieces, and where addresses are now.
     defined : what is wrong with its definitions. unused : which of them are not used.
     untold : says where mistakes begin that are not told, if there are too many.
     start : the motion that it starts in; empty without a library.
@@ -104,8 +102,6 @@ class InPieces:
     """
 
     source: Source
-    lines: Sequence[Piece]
-    pieces: Sequence[Piece | WholeBlock]
     places: Places
     gathered: Gathered
     defined: tuple[Diagnostic, ...]
@@ -113,35 +109,42 @@ class InPieces:
     untold: tuple[Diagnostic, ...]
     start: str
     resolution: Resolution | None
-    played: Sequence[Played]
-    keys: Sequence[range]
+    played: Chunks[Played]
+    keys: Chunks[range]
     room: int
     serial: int
 
-    def with_lines(self, source: Source, lines: Sequence[Piece], size: int) -> InPieces:
+    @property
+    def lines(self) -> Chunks[Piece]:
+        """Return the pieces that no block lies across."""
+        return self.places.lines
+
+    @property
+    def pieces(self) -> Chunks[Statement]:
+        """Return those of them that stand in no block, and the blocks whole."""
+        return self.places.pieces
+
+    def edited(self, source: Source, lines: Chunks[Piece], size: int) -> InPieces:
         """Return another text in pieces, for which addresses have been taken; what they mean is not known yet."""
         return replace(
-            self,
+            self.with_lines(lines),
             source=replace(source, used=self.source.used),
-            lines=lines,
-            pieces=lines,
-            places=places_of(lines, lines, self.places.files),
             room=self.room + size + 1,
             serial=self.serial + 1,
         )
 
-    def grouped(self, known: Iterable[Piece | WholeBlock]) -> InPieces:
-        """Return it with the blocks that lie across its lines; some may be `known` from an earlier text."""
-        pieces, taken = grouped(self.lines, known, self.room)
-        if pieces is self.lines is self.places.lines:
-            return replace(self, pieces=pieces)
-        places = places_of(self.lines, pieces, self.places.files)
-        return replace(self, pieces=pieces, places=places, room=self.room + taken)
+    def with_lines(self, lines: Chunks[Piece]) -> InPieces:
+        """Return it with other lines; which blocks lie across them is not known yet."""
+        return self.with_pieces(lines, lines)
+
+    def with_pieces(self, pieces: Chunks[Statement], lines: Chunks[Piece]) -> InPieces:
+        """Return it with other pieces."""
+        return replace(self, places=Places(pieces, lines, self.places.files))
 
     @property
     def addressed(self) -> Source:
         """Return the source for those who ask with addresses."""
-        return Addressed(self.source.text, self.source.name, self.source.used, self.places)
+        return Addressed(self.source.text, self.source.name, self.source.used, places=self.places)
 
     def now(self, value: T) -> T:
         """Return a value with offsets in place of addresses."""
@@ -188,12 +191,9 @@ class InPieces:
         from mlmg_lang.planning.resolved import ResolvedPlan
 
         parts = enumerate(self.played)
-        now = (on_lines(one, self.line_of(at) - played.line) for at, played in parts for one in played.statements)
+        row = self.places.row
+        now = (on_lines(one, row(at) - played.row) for at, played in parts for one in played.statements)
         return ResolvedPlan(self.source, self.start, self.now(tuple(now)))
-
-    def line_of(self, number: int) -> int:
-        """Return the line on which a piece begins."""
-        return self.source.position(self.places.starts[number])[0]
 
 
 @dataclass(frozen=True)
@@ -255,15 +255,11 @@ class Analysis:
 def _ready(made: InPieces, question: Question) -> InPieces:
     if made.resolution is None or question.names is None or question.catalog is None:
         return made
-    from mlmg_lang.planning.resolve_again import Player, by_piece, keyed, played_of
+    from mlmg_lang.planning.resolve_again import Player, keyed
 
-    line_keys = keyed(made.lines)
-    keys = by_piece(line_keys, made.pieces)
-    player = Player(made.pieces, made.line_of, keys, (question.names, question.catalog), made.source, made.start)
-    played = player.hinted(
-        played_of(made.pieces, map(made.line_of, range(len(keys))), keys, made.resolution), [range(len(keys))]
-    )
-    return replace(made, resolution=None, played=played, keys=line_keys)
+    keys = keyed(made.lines)
+    player = Player(made.places, keys, (question.names, question.catalog), made.source, made.start)
+    return replace(made, resolution=None, played=player.played(made.resolution), keys=keys)
 
 
 def on_lines(statement: resolved.Statement, further: int) -> resolved.Statement:

@@ -6,9 +6,10 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import compress, pairwise
-from operator import attrgetter, is_
+from operator import attrgetter
 from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
 
+from mlmg_lang.chunks import Chunks, all_of
 from mlmg_lang.diagnostics import Diagnostic
 from mlmg_lang.moving import by, moved
 from mlmg_lang.parsing import syntax
@@ -16,7 +17,7 @@ from mlmg_lang.parsing.nesting import NO_STATEMENT, SYNTAX, Make, Nest
 from mlmg_lang.parsing.parse import end_of
 from mlmg_lang.parsing.structure import check_blocks, nested_definition
 from mlmg_lang.parsing.tokens import Token
-from mlmg_lang.pieces import Piece, all_of
+from mlmg_lang.pieces import Piece
 
 if TYPE_CHECKING:
     from mlmg_lang.planning import typed
@@ -96,6 +97,11 @@ class WholeBlock:
 
     @cached_property
     def told(self) -> tuple[Diagnostic, ...]:
+        """Return all that is wrong with it."""
+        return (*all_of(self.lines, "told"), *self.told_as_whole)
+
+    @cached_property
+    def told_as_whole(self) -> tuple[Diagnostic, ...]:
         """Return what is wrong with it as a whole."""
         nested = (nested_definition(item) for item, is_nested in self._definitions if is_nested)
         braces = _nest(self.lines, SYNTAX, "items").diagnostics
@@ -111,41 +117,33 @@ Statement: TypeAlias = Piece | WholeBlock
 """What stands in no block."""
 
 
-def grouped(lines: Sequence[Piece], known: Iterable[Statement], room: int) -> tuple[Sequence[Statement], int]:
-    """Return pieces that stand in no block, and the blocks that lie across the others, and how much room these took.
+def grouped(lines: Chunks[Piece]) -> Chunks[Statement]:
+    """Return pieces that stand in no block, and the blocks that lie across the others, of a script read as a whole."""
+    found: list[Statement] = []
+    done = 0
+    for first, end in blocks(lines, 0):
+        found += (*lines[done:first], WholeBlock(lines[first:end], lines[first].address))
+        done = end
+    return Chunks((*found, *lines[done:])) if found else lines
+
+
+def block_of(lines: tuple[Piece, ...], room: int) -> tuple[WholeBlock, int]:
+    """Return a block, and the first address that nothing has had; before it was made, that was `room`."""
+    if all(one.address + one.size == other.address for one, other in pairwise(lines)):
+        return WholeBlock(lines, lines[0].address), room
+    block = WholeBlock(lines, room)
+    return block, room + block.size + 1
+
+
+def blocks(lines: Chunks[Piece], first: int) -> Iterator[tuple[int, int]]:
+    """Yield the first piece of each block that stands in no other, and the one behind its last.
 
     Parameters
     ----------
-    known : blocks of an earlier time, which may be the same still.
-    room : the first address that nothing has had.
+    first : the piece to begin with, which stands in no block, or begins one.
     """
-    bounds = list(_blocks(lines))
-    if not bounds:
-        return lines, 0
-    before = {id(one.lines[0]): one for one in known if isinstance(one, WholeBlock)}
-    found: list[Statement] = []
-    done, taken = 0, 0
-    for first, end in bounds:
-        block = _block(tuple(lines[first:end]), before, room + taken)
-        taken += block.size + 1 if block.address == room + taken else 0
-        found += lines[done:first]
-        found.append(block)
-        done = end
-    return [*found, *lines[done:]], taken
-
-
-def _block(lines: tuple[Piece, ...], before: dict[int, WholeBlock], room: int) -> WholeBlock:
-    same = before.get(id(lines[0]))
-    if same is not None and len(same.lines) == len(lines) and all(map(is_, same.lines, lines)):
-        return same
-    together = all(one.address + one.size == other.address for one, other in pairwise(lines))
-    return WholeBlock(lines, lines[0].address if together else room)
-
-
-def _blocks(lines: Sequence[Piece]) -> Iterator[tuple[int, int]]:
-    """Yield the first piece of each block that stands in no other, and the one behind its last."""
-    depth = first = 0
-    for at in compress(range(len(lines)), map(attrgetter("marks"), lines)):
+    depth = 0
+    for at in lines.where("marks", first):
         first = first if depth else at
         depth += lines[at].deeper
         if not depth:

@@ -2,23 +2,22 @@
 
 from __future__ import annotations
 
-from bisect import bisect_left, bisect_right
+from bisect import bisect_left
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from itertools import accumulate, chain, compress
-from operator import attrgetter, is_not
+from itertools import accumulate, chain, islice, pairwise, takewhile
 
 from mlmg_lang.analysis import InPieces
-from mlmg_lang.blocks import Statement
+from mlmg_lang.blocks import Statement, WholeBlock, block_of, blocks
+from mlmg_lang.chunks import Chunks, all_of
 from mlmg_lang.definitions.expand import names_in
 from mlmg_lang.definitions.gather import Definitions
 from mlmg_lang.parsing.cutting import Balance, balance, cut
+from mlmg_lang.parsing.layout import Close
 from mlmg_lang.parsing.nesting import Around, after
 from mlmg_lang.parsing.tokenize import tokenize
 from mlmg_lang.parsing.tokens import Token
 from mlmg_lang.pieces import Piece, read_in
-from mlmg_lang.planning.recalling import Moves
-from mlmg_lang.planning.resolve_again import NOT_PLAYED, Played
 from mlmg_lang.source import Source
 
 
@@ -34,14 +33,22 @@ class Edit:
 def edit_between(before: str, after: str) -> Edit:
     """Return the smallest edit that makes one text of another."""
     limit = min(len(before), len(after))
-    start = _longest(limit, lambda n: before[:n] == after[:n])
-    ending = _longest(limit - start, lambda n: before[len(before) - n :] == after[len(after) - n :])
+    start = _longest(limit, lambda first, end: before[first:end] == after[first:end])
+    ends = len(before), len(after)
+    ending = _longest(
+        limit - start,
+        lambda first, end: before[ends[0] - end : ends[0] - first] == after[ends[1] - end : ends[1] - first],
+    )
     return Edit(start, len(before) - ending, len(after) - len(before))
 
 
-def _longest(limit: int, is_common: Callable[[int], bool]) -> int:
-    """Return the greatest number up to a limit that something is true of, as of all smaller ones."""
-    return bisect_left(range(1, limit + 1), True, key=lambda n: not is_common(n))
+def _longest(limit: int, is_common: Callable[[int, int], bool]) -> int:
+    """Return how long two texts are the same, up to a limit; each stretch is compared about once."""
+    length, step = 0, 1 << limit.bit_length()
+    while step := step // 2:
+        if length + step <= limit and is_common(length, length + step):
+            length += step
+    return length
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,7 +59,6 @@ class Spot:
     ----------
     around : the braces around it.
     first, end : the pieces that it was before: the first, and the one behind the last.
-    kept : whether the first is still the same, and there only to see that nothing is joined to it.
     """
 
     source: Source
@@ -60,18 +66,17 @@ class Spot:
     around: Around
     first: int
     end: int
-    kept: bool
 
 
 def reread(before: InPieces, source: Source, edit: Edit) -> Spot:
     """Return the stretch that an edit touches, with the line before it: what follows could go on with that."""
     lines, starts = before.lines, before.places.line_starts
-    last_whole = min(bisect_right(starts, edit.start), len(lines)) - 2
+    last_whole = min(starts.last_to(edit.start), len(lines) - 1) - 1
     first = next((at for at in range(last_whole, -1, -1) if lines[at].solid), 0)
-    end = min(bisect_right(starts, edit.end), len(lines))
+    end = min(starts.last_to(edit.end) + 1, len(lines))
     while True:
         spot = Source(source.text[starts[first] : starts[end] + edit.further], source.name)
-        tokens, around = tokenize(spot), braces_after((), lines[:first])
+        tokens, around = tokenize(spot), braces_before(lines, first)
         cuts = cut(tokens, len(around))
         wider = _wider(lines, range(first, end), balance(tokens, len(around)))
         if wider is None and end < len(lines) and cuts.next != len(spot.text):
@@ -79,14 +84,58 @@ def reread(before: InPieces, source: Source, edit: Edit) -> Spot:
         if wider is None:
             break
         first, end = wider.start, wider.stop
-    new = cuts.starts[0] if cuts.starts else len(spot.text)
-    kept = first <= last_whole and new == lines[first].size
-    return Spot(spot, tokens, around, first, end, kept)
+    return Spot(spot, tokens, around, first, end)
 
 
-def braces_after(around: Around, lines: Sequence[Piece]) -> Around:
+def without_same(before: InPieces, spot: Spot, new: Sequence[Piece]) -> tuple[int, Sequence[Piece], int]:
+    """Return new lines without those at both ends that are as they were, and from which to before which they stand.
+
+    Those have been read only to see that nothing is joined to them.
+    """
+    starts, first, end = before.places.line_starts, spot.first, spot.end
+    old = _with_texts(before.lines[first:end], before.source.text[starts[first] : starts[end]])
+    now = _with_texts(new, spot.source.text)
+    n_first = _n_same(old, now)
+    n_last = _n_same(reversed(old[n_first:]), reversed(now[n_first:]))
+    return first + n_first, new[n_first : len(new) - n_last], end - n_last
+
+
+def _with_texts(lines: Sequence[Piece], text: str) -> list[tuple[Piece, str]]:
+    ends = accumulate((line.size for line in lines), initial=0)
+    return [(line, text[start:end]) for line, (start, end) in zip(lines, pairwise(ends), strict=True)]
+
+
+def _n_same(old: Iterable[tuple[Piece, str]], new: Iterable[tuple[Piece, str]]) -> int:
+    """Return how many lines say what others do, up to the first that may not."""
+    pairs = takewhile(lambda pair: _says_the_same(*pair), zip(old, new, strict=False))
+    return sum(1 for _ in pairs)
+
+
+def _says_the_same(old: tuple[Piece, str], new: tuple[Piece, str]) -> bool:
+    return old[1] == new[1] and (old[0].around == new[0].around or not old[0].depends)
+
+
+def braces_before(lines: Chunks[Piece], number: int) -> Around:
+    """Return the braces around what comes before a line."""
+    around: Around = ()
+    for n_closed, opened in lines.each_before(number, _turn, "marks"):
+        around = (*around[: max(len(around) - n_closed, 0)], *opened)
+    return around
+
+
+def _turn(lines: Iterable[Piece], name: str) -> tuple[int, Around]:
+    """Return how many braces around the first of some lines are closed in them, and which are opened and stay so."""
+    n_closed = 0
+    opened: Around = ()
+    for mark in all_of(lines, name):
+        n_closed += isinstance(mark, Close) and not opened
+        opened = after(opened, (mark,))
+    return n_closed, opened
+
+
+def braces_after(around: Around, lines: Iterable[Piece]) -> Around:
     """Return the braces around what comes after some lines; `around` are those around the first."""
-    return after(around, chain.from_iterable(filter(None, map(attrgetter("marks"), lines))))
+    return after(around, all_of(lines, "marks"))
 
 
 class CutElsewhere(Exception):
@@ -94,7 +143,7 @@ class CutElsewhere(Exception):
 
 
 def in_other_braces(
-    lines: Sequence[Piece], first: int, around: Around, text_of: Callable[[int], str]
+    lines: Chunks[Piece], first: int, around: Around, text_of: Callable[[int], str]
 ) -> Iterator[tuple[int, Piece]]:
     """Yield the lines from one on that may say something else in the braces around them now, read again.
 
@@ -107,8 +156,7 @@ def in_other_braces(
     CutElsewhere
         If they are no pieces in these.
     """
-    rest = lines[first:]
-    for at in compress(range(first, len(lines)), map(attrgetter("depends"), rest)):
+    for at in lines.where("depends", first):
         if lines[at].around == around:
             return
         line = read_in(lines[at], text_of(at), around)
@@ -118,35 +166,27 @@ def in_other_braces(
         around = after(around, line.marks)
 
 
-def _wider(pieces: Sequence[Piece], spot: range, new: Balance) -> range | None:
+def _wider(lines: Chunks[Piece], spot: range, new: Balance) -> range | None:
     """Return a spot with the pieces where its parentheses have their partners now; None if it need not be wider."""
     first, end = spot.start, spot.stop
     if new.n_closing:
-        first = next(_open_before(pieces, first), first)
-    if new.n_open or (not new.parts and any(piece.balance.parts for piece in pieces[first:end])):
-        closing = next(_closing_from(pieces, end), None)
-        opening = first if new.n_open else next(_open_before(pieces, first), None)
+        first = next(_open_before(lines, first), first)
+    if new.n_open or (not new.parts and any(line.balance.parts for line in lines[first:end])):
+        closing = next(_closing_from(lines, end), None)
+        opening = first if new.n_open else next(_open_before(lines, first), None)
         if closing is not None and opening is not None:
             first, end = opening, closing + 1
     return None if range(first, end) == spot else range(first, end)
 
 
-def _open_before(pieces: Sequence[Piece], end: int) -> Iterator[int]:
-    """Yield the piece with the last parenthesis that is still open before a piece, if there is one."""
-    for at in reversed(range(end)):
-        if pieces[at].balance.n_open:
-            yield at
-        if pieces[at].balance.n_open or pieces[at].balance.parts:
-            return
+def _open_before(lines: Chunks[Piece], end: int) -> Iterator[int]:
+    """Yield the line with the last parenthesis that is still open before a line, if there is one."""
+    return (at for at in islice(lines.where_back("balance.ends_before", end), 1) if lines[at].balance.n_open)
 
 
-def _closing_from(pieces: Sequence[Piece], first: int) -> Iterator[int]:
-    """Yield the first piece from one on with a parenthesis that would close one before it, if there is one."""
-    for at in range(first, len(pieces)):
-        if pieces[at].balance.n_closing:
-            yield at
-        if pieces[at].balance.n_closing or pieces[at].balance.parts:
-            return
+def _closing_from(lines: Chunks[Piece], first: int) -> Iterator[int]:
+    """Yield the first line from one on with a parenthesis that would close one before it, if there is one."""
+    return (at for at in islice(lines.where("balance.ends_after", first), 1) if lines[at].balance.n_closing)
 
 
 def changed_names(before: Definitions, after: Definitions) -> frozenset[str]:
@@ -171,6 +211,28 @@ def _meaning(definitions: Definitions, name: str) -> tuple[object, object]:
 
 
 @dataclass(frozen=True, slots=True)
+class Regrouping:
+    """What an edit has changed of the pieces that stand in no block.
+
+    Attributes
+    ----------
+    first, n_new, end : the pieces from `first` to `end` before it have become `n_new` others.
+    others : pieces after it of which some line has changed besides.
+    """
+
+    first: int
+    n_new: int
+    end: int
+    others: Sequence[int]
+
+    @property
+    def numbers(self) -> list[int]:
+        """Return the pieces that may play something else; where some are gone, the one before them."""
+        new = range(self.first, self.first + self.n_new) or [max(self.first - 1, 0)]
+        return sorted({*new, *self.others})
+
+
+@dataclass(frozen=True, slots=True)
 class Change:
     """What an edit has changed.
 
@@ -181,15 +243,17 @@ class Change:
     again : other lines that have been read again.
     names : those that mean something else.
     numbers : the lines that may mean something else.
+    regrouping : what that makes of its pieces.
     """
 
     made: InPieces
     first: int
     n_new: int
     end: int
-    again: Sequence[int]
-    names: frozenset[str]
-    numbers: Sequence[int]
+    again: Sequence[int] = ()
+    names: frozenset[str] = frozenset()
+    numbers: Sequence[int] = ()
+    regrouping: Regrouping = Regrouping(0, 0, 0, ())
 
     def touching(self, before: InPieces) -> Iterator[Piece]:
         """Yield the lines that have been read again, and those before the edit that they are in place of."""
@@ -218,77 +282,49 @@ def touched(before: InPieces, change: Change) -> list[int]:
     if change.made.gathered is before.gathered:
         return sorted(new)
     known = ((list(of.lets), of.unread) for of in (one.gathered.definitions for one in (before, change.made)))
-    same = next(known) == next(known)
-    names = change.names
-    others = (at for at in range(len(lines)) if at not in new)
-    return sorted((*new, *(at for at in others if _may_mean_else(lines[at], names, same))))
+    if next(known) != next(known):
+        new.update(lines.where("said"), lines.where("n_named"))
+    return sorted(new.union(lines.where_among("names", change.names)))
 
 
-def _may_mean_else(line: Piece, names: frozenset[str], same: bool) -> bool:
-    """Return whether a line uses one of some names, or could be a slip of others; `same`: as many are defined."""
-    return (not same and bool(line.said or line.n_named)) or not names.isdisjoint(line.names)
+def regrouped(before: InPieces, change: Change) -> Change:
+    """Return a change of which the lines are known, with the blocks that lie across these."""
+    made = change.made
+    if before.pieces is before.lines and not change.moves_braces(before):
+        new = range(change.first, change.first + change.n_new)
+        others = [number for number in change.numbers if number not in new]
+        return replace(change, regrouping=Regrouping(change.first, change.n_new, change.end, others))
+    first, new_pieces, end, room = _grouped_again(before, change)
+    pieces: Chunks[Statement] = before.pieces.spliced(first, end, new_pieces)
+    first_lines = pieces.sums("n_lines")
+    changed: dict[int, Statement] = {}
+    for number in change.numbers:
+        at = first_lines.last_to(number)
+        if not first <= at < first + len(new_pieces) and at not in changed:
+            own = made.lines[first_lines[at] : first_lines[at + 1]]
+            changed[at], room = block_of(own, room) if isinstance(pieces[at], WholeBlock) else (own[0], room)
+    made = replace(made.with_pieces(pieces.replaced(changed), made.lines), room=room)
+    return replace(change, made=made, regrouping=Regrouping(first, len(new_pieces), end, sorted(changed)))
 
 
-@dataclass(frozen=True, slots=True)
-class PieceChange:
-    """What an edit has changed of what is played.
-
-    Attributes
-    ----------
-    known : what the pieces have played; of new ones, what could be playing before the first.
-    numbers : the pieces that may play something else; where some are gone, the one before them.
-    moves : what commands have done in pieces that are no more.
-    """
-
-    known: list[Played]
-    numbers: list[int]
-    moves: Sequence[Moves]
-
-
-def pieces_changed(before: InPieces, change: Change) -> PieceChange:
-    """Return which pieces an edit has changed."""
-    old, new = before.pieces, change.made.pieces
-    old_ends, new_ends = _ends(old, before.lines), _ends(new, change.made.lines)
-    first = bisect_right(old_ends, change.first) - 1
-    end, new_end = _same_end(old_ends, new_ends, change)
-    fresh = [NOT_PLAYED] * (new_end - first)
-    if fresh and first < len(before.played):
-        once = before.played[first]
-        fresh[0] = replace(NOT_PLAYED, before=once.before, sound=once.sound)
-    numbers = [
-        *(at for at in _others(old[:first], new[:first])),
-        *(range(first, new_end) if fresh else [max(first - 1, 0)]),
-        *(new_end + at for at in _others(old[end:], new[new_end:])),
-    ]
-    moves = {id(one.moves): one.moves for one in before.played[first:end]}
-    return PieceChange([*before.played[:first], *fresh, *before.played[end:]], numbers, tuple(moves.values()))
-
-
-def _ends(pieces: Sequence[Statement], lines: Sequence[Piece]) -> Sequence[int]:
-    """Return how many lines come before each piece, and all of them."""
-    if len(pieces) == len(lines):
-        return range(len(lines) + 1)
-    return list(accumulate(map(attrgetter("n_lines"), pieces), initial=0))
-
-
-def _same_end(old: Sequence[int], new: Sequence[int], change: Change) -> tuple[int, int]:
-    """Return behind which pieces, of those before and after an edit, the same come: at the latest behind all."""
-    further = change.first + change.n_new - change.end
-    for at in range(bisect_left(old, change.end), len(old)):
-        number = bisect_left(new, old[at] + further)
-        if number < len(new) and new[number] == old[at] + further:
-            return at, number
+def _grouped_again(before: InPieces, change: Change) -> tuple[int, list[Statement], int, int]:
+    """Return which pieces have become others, from one to before another; these; and the first address unused then."""
+    lines, starts = change.made.lines, before.places.first_lines
+    behind = change.first + change.n_new
+    further = behind - change.end
+    first = min(starts.last_to(change.first), len(before.pieces) - 1)
+    done, room = starts[first], change.made.room
+    found: list[Statement] = []
+    for begin, end in chain(blocks(lines, done), [(len(lines), len(lines))]):
+        # From where a piece began already, be it after the block before this one or sooner, all stays as it was.
+        same = bisect_left(starts, max(done, behind) - further)
+        if starts[same] + further <= begin:
+            found += lines[done : starts[same] + further]
+            return first, found, same, room
+        block, room = block_of(lines[begin:end], room)
+        found += (*lines[done:begin], block)
+        done = end
     raise ValueError("a script ends where its last piece does")
-
-
-def _others(old: Sequence[object], new: Sequence[object]) -> Iterator[int]:
-    """Yield where there is something else than before."""
-    return compress(range(len(new)), map(is_not, old, new))
-
-
-def keys_of(before: InPieces, change: Change) -> list[range]:
-    """Return the keys of the lines after a change; new ones have none yet."""
-    return [*before.keys[: change.first], *([range(0)] * change.n_new), *before.keys[change.end :]]
 
 
 def runs(numbers: Iterable[int]) -> list[range]:

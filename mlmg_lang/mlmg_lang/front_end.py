@@ -5,28 +5,27 @@ from __future__ import annotations
 from bisect import bisect_right
 from collections.abc import Collection, Iterator, Sequence
 from dataclasses import replace
-from itertools import compress
 from operator import attrgetter
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from mlmg_lang.analysis import Analysis, Found, InPieces, Question
-from mlmg_lang.blocks import WholeBlock, grouped
+from mlmg_lang.blocks import Statement, grouped
 from mlmg_lang.catalog import Catalog
+from mlmg_lang.chunks import Chunks, all_of
 from mlmg_lang.definitions.expand import MAX_ALL_NODES, Expander, unused
 from mlmg_lang.definitions.gather import Files, Gathered, NoFiles, gather, gather_with
 from mlmg_lang.diagnostics import Diagnostic
 from mlmg_lang.following import without_following
 from mlmg_lang.parsing.case import guess_case
 from mlmg_lang.parsing.lookalikes import opens_or_closes
-from mlmg_lang.parsing.nesting import Around
 from mlmg_lang.parsing.parse import MAX_MISTAKES, read_marks
 from mlmg_lang.parsing.quotes import requoted
 from mlmg_lang.parsing.structure import check_definition, check_structure, misplaced
 from mlmg_lang.parsing.syntax import BrokenDefinition, Item, Let, Script, Use
 from mlmg_lang.parsing.tokenize import MAX_TOKENS, tokenize
 from mlmg_lang.parsing.tokens import Token
-from mlmg_lang.pieces import Piece, all_of, lines_of
-from mlmg_lang.places import places_of
+from mlmg_lang.pieces import Piece, lines_of
+from mlmg_lang.places import Places
 from mlmg_lang.source import Source, Span
 from mlmg_lang.suppression import suppress
 
@@ -74,16 +73,15 @@ def analyse_for(source: Source, question: Question) -> Analysis:
     source : with the files, if there are any, whose definitions the text can use without saying so.
     """
     tokens = tokenize(source)
-    read = lines_of(len(source.text), tokens, read_marks(source, tokens))
-    gathered = gather(source, _defining(read, grouped(read, (), 0)[0]), question.files)
+    read = Chunks(lines_of(len(source.text), tokens, read_marks(source, tokens)))
+    gathered = gather(source, _defining(read, grouped(read)), question.files)
     reader = _Reader(question, gathered, gathered.source)
-    lines, _ = reader.all_understood(read, range(len(read)))
+    lines = read.replaced(reader.all_understood(read, range(len(read))))
     room = gathered.source.end + 1
-    places = places_of(lines, lines, range(len(source.text) + 1, room))
-    made = InPieces(
-        gathered.source, lines, lines, places, gathered, reader.defined(), (), _untold(lines), "", None, (), (), room, 0
-    )
-    made = made.grouped(())
+    places = Places(grouped(lines), lines, range(len(source.text) + 1, room))
+    none: Chunks[Any] = Chunks()
+    untold = _untold(lines)
+    made = InPieces(gathered.source, places, gathered, reader.defined(), (), untold, "", None, none, none, room, 0)
     made = replace(made, unused=tuple(_unused(made)))
     found = Found(_read(made))
     if question.names is None or question.catalog is None:
@@ -139,22 +137,19 @@ class _Reader:
             planner.define(self._gathered.definitions)
         return (*self._gathered.diagnostics, *structural, *(() if planner is None else planner.diagnostics))
 
-    def all_understood(self, lines: Sequence[Piece], numbers: Collection[int]) -> tuple[list[Piece], list[int]]:
-        """Return pieces with what some of them mean; and which these are, as others may be told of now, or no longer.
+    def all_understood(self, lines: Chunks[Piece], numbers: Collection[int]) -> dict[int, Piece]:
+        """Return what some pieces are with what they mean; and others, as they may be told of now, or no longer.
 
         When as many mistakes in names have been told as anybody reads, what is wrong with the next is not worked out.
         """
-        done, again, n_told = list(lines), [], 0
-        asked = list(map(attrgetter("is_faulty"), lines))
-        for number in numbers:
-            asked[number] = True
-        for at in compress(range(len(lines)), asked):
-            tells = n_told <= MAX_MISTAKES
-            if at in numbers or (lines[at].n_named >= 0) is not tells:
-                done[at] = self._understood(lines[at], tells)
-                again.append(at)
-            n_told += max(done[at].n_named, 0)
-        return done, again
+        done: dict[int, Piece] = {}
+        n_told = 0
+        for at in sorted({*lines.where("is_faulty"), *numbers}):
+            line, tells = lines[at], n_told <= MAX_MISTAKES
+            if at in numbers or (line.n_named >= 0) is not tells:
+                line = done[at] = self._understood(line, tells)
+            n_told += max(line.n_named, 0)
+        return done
 
     def _understood(self, piece: Piece, tells: bool) -> Piece:
         """Return a piece with what it means; `tells`: and with what is wrong with its names."""
@@ -202,30 +197,29 @@ def _is_open(item: Item) -> bool:
     return isinstance(item, BrokenDefinition) and not item.names
 
 
-def _defining(lines: Sequence[Piece], pieces: Sequence[Piece | WholeBlock]) -> Script:
+def _defining(lines: Chunks[Piece], pieces: Chunks[Statement]) -> Script:
     """Return the definitions of a script: those in blocks too, as they have been reported, but not the files there."""
-    lets = (item for item in all_of(lines, "defining") if not isinstance(item, Use))
-    used = (item for item in all_of(pieces, "defining") if isinstance(item, Use))
+    lets = (item for item in lines.all("defining") if not isinstance(item, Use))
+    used = (item for item in pieces.all("defining") if isinstance(item, Use))
     return Script((*lets, *used), Span(0, 0))
 
 
 def _unused(made: InPieces) -> Iterator[Diagnostic]:
     """Yield the definitions that nothing uses; what could not be read may use all."""
     definitions, lines = made.gathered.definitions, made.lines
-    if definitions.lets and not any(map(attrgetter("broken"), lines)):
-        used = frozenset[str]().union(*set(map(attrgetter("used"), lines)))
-        yield from unused(all_of(made.pieces, "defining"), used, definitions)
+    if definitions.lets and not lines.has("broken"):
+        yield from unused(made.pieces.all("defining"), lines.words("used"), definitions)
 
 
 def _read(made: InPieces) -> tuple[Diagnostic, ...]:
     """Return all that is wrong with the text, the names and the types of a script."""
-    blocks = () if made.pieces is made.lines else (piece for piece in made.pieces if isinstance(piece, WholeBlock))
-    return (*_defined(made), *made.unused, *made.untold, *all_of(made.lines, "told"), *all_of(blocks, "told"))
+    return (*_defined(made), *made.unused, *made.untold, *made.pieces.all("told"))
 
 
-def _untold(lines: Sequence[Piece]) -> tuple[Diagnostic, ...]:
+def _untold(lines: Chunks[Piece]) -> tuple[Diagnostic, ...]:
     """Return what says from where on mistakes in names are not told, if there are too many."""
-    first = next((line for line in lines if line.n_named < 0), None)
+    named = (lines[at] for at in lines.where("n_named"))
+    first = next((line for line in named if line.n_named < 0), None)
     if first is None:
         return ()
     from mlmg_lang.planning.plan import too_many
@@ -235,7 +229,8 @@ def _untold(lines: Sequence[Piece]) -> tuple[Diagnostic, ...]:
 
 def _defined(made: InPieces) -> Sequence[Diagnostic]:
     """Return what is wrong with the definitions, but not what may follow from what is wrong with their text."""
-    misread = [line for line in made.lines if line.misread and line.defining] if made.defined else []
+    defining = (made.lines[at] for at in made.lines.where("defining")) if made.defined else ()
+    misread = [line for line in defining if line.misread]
     if not misread:
         return made.defined
     misread.sort(key=attrgetter("address"))
@@ -262,10 +257,11 @@ def _told(question: Question, found: Found, made: InPieces) -> Analysis:
 
 def _speaking(made: InPieces) -> tuple[Token, ...]:
     """Return the tokens of comments that may be meant for the compiler, of the lines these are about, and of blocks."""
-    if "mlmg" not in made.source.text or not any(map(attrgetter("speaks"), made.lines)):
+    lines = made.lines
+    if "mlmg" not in made.source.text or not lines.has("speaks"):
         return ()
-    lines = (line for line in made.lines if line.speaks or line.marks)
-    return made.now(tuple(all_of(lines, "tokens")))
+    numbers = sorted({*lines.where("speaks"), *lines.where("marks")})
+    return made.now(tuple(all_of((lines[at] for at in numbers), "tokens")))
 
 
 def _sorted(diagnostics: tuple[Diagnostic, ...]) -> tuple[Diagnostic, ...]:
@@ -296,12 +292,12 @@ def _edited(previous: Analysis, source: Source) -> Analysis | None:
 
 def _has_endless_mistakes(made: InPieces) -> bool:
     """Return whether not all of the text may have been read, which depends on all before it."""
-    return sum(map(len, map(attrgetter("misread"), made.lines))) >= MAX_MISTAKES
+    return len(tuple(made.lines.all("misread"))) >= MAX_MISTAKES
 
 
 def _is_too_large(made: InPieces) -> bool:
     """Return whether what is defined is not put in everywhere."""
-    return bool(made.gathered.definitions.lets) and sum(map(attrgetter("n_nodes"), made.lines)) > MAX_ALL_NODES
+    return bool(made.gathered.definitions.lets) and made.lines.sums("n_nodes")[-1] > MAX_ALL_NODES
 
 
 def _read_again(before: InPieces, source: Source) -> Change | None:
@@ -309,43 +305,33 @@ def _read_again(before: InPieces, source: Source) -> Change | None:
 
     The same goes for signs that make comments of whatever stands between them, and for braces in too many others.
     """
-    from mlmg_lang.editing import Change, braces_after, edit_between, reread
+    from mlmg_lang.editing import Change, edit_between, reread, without_same
 
     spot = reread(before, source, edit_between(before.source.text, source.text))
     around, size = spot.around, len(spot.source.text)
     read = read_marks(spot.source, spot.tokens, around)
     if opens_or_closes(requoted(spot.tokens)) or read.deep:
         return None
-    new = lines_of(size, spot.tokens, read, around, before.room)[int(spot.kept) :]
-    first = spot.first + spot.kept
-    made = before.with_lines(source, [*before.lines[:first], *new, *before.lines[spot.end :]], size)
-    change = Change(made, first, len(new), spot.end, (), frozenset(), ())
-    around = braces_after(around, before.lines[spot.first : first])
-    return _defined_again(before, _braced_again(before, change, around) if change.moves_braces(before) else change)
+    first, new, end = without_same(before, spot, lines_of(size, spot.tokens, read, around, before.room))
+    made = before.edited(source, before.lines.spliced(first, end, new), size)
+    change = Change(made, first, len(new), end)
+    return _defined_again(before, _braced_again(before, change) if change.moves_braces(before) else change)
 
 
-def _braced_again(before: InPieces, change: Change, around: Around) -> Change | None:
-    """Return a change with what it makes of the lines behind it; None where these are cut elsewhere.
-
-    Parameters
-    ----------
-    around : the braces around its first line.
-    """
-    from mlmg_lang.editing import CutElsewhere, braces_after, in_other_braces
+def _braced_again(before: InPieces, change: Change) -> Change | None:
+    """Return a change with what it makes of the lines behind it; None where these are cut elsewhere."""
+    from mlmg_lang.editing import CutElsewhere, braces_before, in_other_braces
 
     made, behind = change.made, change.first + change.n_new
-    now = braces_after(around, made.lines[change.first : behind])
-    if now == braces_after(around, before.lines[change.first : change.end]):
+    now = braces_before(made.lines, behind)
+    if now == braces_before(before.lines, change.end):
         return change
-    starts, lines = made.places.starts, list(made.lines)
+    starts, lines = made.places.starts, made.lines
     try:
-        found = list(in_other_braces(lines, behind, now, lambda at: made.source.text[starts[at] : starts[at + 1]]))
+        found = dict(in_other_braces(lines, behind, now, lambda at: made.source.text[starts[at] : starts[at + 1]]))
     except CutElsewhere:
         return None
-    for at, line in found:
-        lines[at] = line
-    made = replace(made, lines=lines, pieces=lines, places=replace(made.places, pieces=lines, lines=lines))
-    return replace(change, made=made, again=[at for at, _ in found])
+    return replace(change, made=made.with_lines(lines.replaced(found)), again=tuple(found))
 
 
 def _defined_again(before: InPieces, change: Change | None) -> Change | None:
@@ -371,35 +357,39 @@ def _defined_again(before: InPieces, change: Change | None) -> Change | None:
 
 def _understood_again(before: InPieces, change: Change, question: Question) -> Change:
     """Return what an edit has changed, with what it means."""
-    from mlmg_lang.editing import touched
+    from mlmg_lang.editing import regrouped, touched
 
     made = change.made
     reader = _Reader(question, made.gathered, made.addressed)
-    lines, numbers = reader.all_understood(made.lines, frozenset(touched(before, change)))
-    made = replace(made, lines=lines, untold=_untold(lines)).grouped(before.pieces)
+    understood = reader.all_understood(made.lines, frozenset(touched(before, change)))
+    lines = made.lines.replaced(understood)
+    made = replace(made.with_lines(lines), untold=_untold(lines))
+    change = regrouped(before, replace(change, made=made, numbers=tuple(understood)))
+    made = change.made
     if made.gathered is not before.gathered:
         made = replace(made, defined=reader.defined())
     if made.gathered is not before.gathered or change.moves_braces(before) or not change.uses_the_same(before):
         made = replace(made, unused=tuple(_unused(made)))
-    return replace(change, made=made, numbers=numbers)
+    return replace(change, made=made)
 
 
 def _replayed(
     library: tuple[Names, Catalog], question: Question, found: Found, before: InPieces, change: Change
 ) -> Analysis | None:
     """Return the analysis after an edit against a library; None where there is no more room for keys."""
-    from mlmg_lang.editing import keys_of, pieces_changed, runs
+    from mlmg_lang.editing import runs
     from mlmg_lang.planning.resolve import start_of
-    from mlmg_lang.planning.resolve_again import Player, by_piece, keyed_between
+    from mlmg_lang.planning.resolve_again import Player, keyed_between, with_unknown
 
-    made = change.made
-    keys = keyed_between(made.lines, keys_of(before, change), runs(change.numbers), made.serial)
+    made, pieces = change.made, change.regrouping
+    unknown = before.keys.spliced(change.first, change.end, [range(0)] * change.n_new)
+    keys = keyed_between(made.lines, unknown, runs(change.numbers), made.serial)
     if keys is None:
         return None
     start, wrong = start_of(all_of(made.pieces, "statements"), *library, question.start)
-    changed, piece_keys = pieces_changed(before, change), by_piece(keys, made.pieces)
-    player = Player(made.pieces, made.line_of, piece_keys, library, made.addressed, start, changed.moves)
-    played = player.replay(changed.known, runs(changed.numbers if start == before.start else (0, *changed.numbers)))
-    told, hints = (tuple(all_of(played, name)) for name in ("told", "hints"))
+    known, moves = with_unknown(before.played, pieces.first, pieces.n_new, pieces.end)
+    player = Player(made.places, keys, library, made.addressed, start, moves)
+    played = player.replay(known, runs(pieces.numbers if start == before.start else (0, *pieces.numbers)))
+    told, hints = (tuple(played.all(name)) for name in ("told", "hints"))
     found = replace(found, played=(*wrong, *told), hints=hints)
     return _told(question, found, replace(made, start=start, played=played, keys=keys))

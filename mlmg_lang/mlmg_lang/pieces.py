@@ -8,12 +8,11 @@ says where an address is now.
 from __future__ import annotations
 
 from bisect import bisect_left, bisect_right
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import chain, pairwise
-from operator import attrgetter
-from typing import TYPE_CHECKING, Any, TypeVar
+from itertools import pairwise
+from typing import TYPE_CHECKING, TypeVar
 
 from mlmg_lang.definitions.expand import any_broken, names_in, used_names
 from mlmg_lang.diagnostics import Diagnostic
@@ -78,6 +77,11 @@ class Piece:
         return bool(self.misread or self.marks) or any(blocks)
 
     @cached_property
+    def n_ends(self) -> int:
+        """Return how many line ends there are in it."""
+        return sum(token.type == "NEWLINE" for token in self.tokens)
+
+    @cached_property
     def deeper(self) -> int:
         """Return how many more blocks there are around what comes after it than around it."""
         return len(after(self.around, self.marks)) - len(self.around)
@@ -127,11 +131,6 @@ class Piece:
 def _defines(item: syntax.Item) -> bool:
     nodes = syntax.walk(item) if isinstance(item, syntax.Repeat | syntax.Choose) else (item,)
     return any(isinstance(node, syntax.Let | syntax.Use | syntax.BrokenDefinition) for node in nodes)
-
-
-def all_of(pieces: Iterable[object], name: str) -> Iterator[Any]:
-    """Yield what pieces have in their tuples of a name, as fast as Python can: there are many with nothing in them."""
-    return chain.from_iterable(map(attrgetter(name), pieces))
 
 
 def lines_of(size: int, tokens: Sequence[Token], read: Read, around: Around = (), address: int = 0) -> list[Piece]:

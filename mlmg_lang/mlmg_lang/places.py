@@ -3,24 +3,15 @@
 from __future__ import annotations
 
 from bisect import bisect_right
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from itertools import accumulate, chain, compress
-from operator import attrgetter
+from itertools import accumulate, chain
 
-from mlmg_lang.blocks import WholeBlock
+from mlmg_lang.blocks import Statement
+from mlmg_lang.chunks import Chunks, Sums
 from mlmg_lang.pieces import Piece
 from mlmg_lang.source import Source, Span
-
-
-def places_of(lines: Sequence[Piece], pieces: Sequence[Piece | WholeBlock], files: range) -> Places:
-    """Return where addresses are now; see `Places`."""
-    starts = list(accumulate(map(attrgetter("size"), lines), initial=0))
-    if len(pieces) == len(lines):
-        return Places(pieces, starts, lines, starts, files)
-    first_lines = accumulate(map(attrgetter("n_lines"), pieces), initial=0)
-    return Places(pieces, [starts[line] for line in first_lines], lines, starts, files)
 
 
 @dataclass(frozen=True)
@@ -30,16 +21,37 @@ class Places:
     Attributes
     ----------
     pieces : statements that stand in no block, and blocks whole.
-    starts : where they begin; last, where the script ends.
-    lines : the pieces that no block lies across. line_starts : where they begin; last, where the script ends.
+    lines : the pieces that no block lies across.
     files : the addresses of the files that are behind it.
     """
 
-    pieces: Sequence[Piece | WholeBlock]
-    starts: Sequence[int]
-    lines: Sequence[Piece]
-    line_starts: Sequence[int]
+    pieces: Chunks[Statement]
+    lines: Chunks[Piece]
     files: range
+
+    @cached_property
+    def starts(self) -> Sums:
+        """Return where the pieces begin; last, where the script ends."""
+        return self.pieces.sums("size")
+
+    @cached_property
+    def line_starts(self) -> Sums:
+        """Return where the lines begin; last, where the script ends."""
+        return self.lines.sums("size")
+
+    @cached_property
+    def first_lines(self) -> Sums:
+        """Return the number of the first line of each piece; last, how many lines there are."""
+        return self.pieces.sums("n_lines")
+
+    @cached_property
+    def rows(self) -> Sums:
+        """Return how many line ends there are before each line, which may be several of the text; last, in all."""
+        return self.lines.sums("n_ends")
+
+    def row(self, number: int) -> int:
+        """Return how many line ends there are before a piece."""
+        return self.rows[self.first_lines[number]]
 
     def __call__(self, span: Span) -> Span:
         """Return where a span is now that may begin in one piece, and end in another."""
@@ -55,27 +67,49 @@ class Places:
 
     @cached_property
     def _stretches(self) -> list[tuple[int, int, int]]:
-        """Return the address, the size and the beginning of each piece, in the order of the addresses."""
-        lines = _stretches(self.lines, self.line_starts)
-        if len(self.pieces) == len(self.lines):
+        """Return address, size and place of stretches that stand together, in the order of the addresses."""
+        lines = _placed(self.line_starts, self.lines.each(_together, "address"))
+        if self.pieces is self.lines:
             return sorted(lines)
-        own = compress(_stretches(self.pieces, self.starts), map(attrgetter("has_own_address"), self.pieces))
-        return sorted(chain(lines, own))
+        return sorted(chain(lines, _placed(self.starts, self.pieces.each(_own, "address"))))
 
     @cached_property
     def _addresses(self) -> list[int]:
         return [address for address, _, _ in self._stretches]
 
 
-def _stretches(pieces: Sequence[Piece | WholeBlock], starts: Sequence[int]) -> Iterator[tuple[int, int, int]]:
-    return zip(map(attrgetter("address"), pieces), map(attrgetter("size"), pieces), starts, strict=False)
+def _placed(starts: Sums, stretches: Sequence[Sequence[tuple[int, int, int]]]) -> Iterator[tuple[int, int, int]]:
+    """Yield stretches of a script, from those of each chunk with places in that."""
+    for start, own in zip(starts.by_chunk, stretches, strict=False):
+        yield from ((address, size, start + place) for address, size, place in own)
+
+
+def _together(pieces: Sequence[Statement], _: str) -> list[tuple[int, int, int]]:
+    """Return the stretches of some pieces in a row, each as far as addresses follow each other."""
+    found: list[tuple[int, int, int]] = []
+    place = 0
+    for piece in pieces:
+        address, size, start = found[-1] if found else (piece.address, 0, 0)
+        if address + size == piece.address:
+            found[-1:] = [(address, size + piece.size, start)]
+        else:
+            found.append((piece.address, piece.size, place))
+        place += piece.size
+    return found
+
+
+def _own(pieces: Sequence[Statement], _: str) -> list[tuple[int, int, int]]:
+    """Return the stretches of the pieces that have addresses besides those of their lines."""
+    starts = accumulate((piece.size for piece in pieces), initial=0)
+    found = zip(pieces, starts, strict=False)
+    return [(piece.address, piece.size, start) for piece, start in found if piece.has_own_address]
 
 
 @dataclass(frozen=True)
 class Addressed(Source):
     """A source that is asked for addresses in place of offsets."""
 
-    places: Callable[[Span], Span] = field(default=lambda span: span, compare=False)
+    places: Places = field(kw_only=True, compare=False)
 
     def slice(self, span: Span) -> str:
         """Return the text of a span."""
@@ -83,4 +117,11 @@ class Addressed(Source):
 
     def position(self, offset: int) -> tuple[int, int]:
         """Return line and column of an address."""
-        return super().position(self.places(Span(offset, offset)).start)
+        offset = self.places(Span(offset, offset)).start
+        if offset > len(self.text):
+            return super().position(offset)
+        starts = self.places.line_starts
+        number = min(starts.last_to(offset), len(self.places.lines) - 1)
+        piece = Source(self.text[starts[number] : starts[number + 1]])
+        line, column = piece.position(offset - starts[number])
+        return self.places.rows[number] + line, column

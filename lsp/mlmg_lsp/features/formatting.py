@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from bisect import bisect_left, bisect_right
+from bisect import bisect_left
 from collections.abc import Callable, Iterable, Iterator
 
 from lsprotocol import types
@@ -68,7 +68,7 @@ def _pieces_at(snapshot: Snapshot, lines: range) -> range:
     line_starts, starts = made.source.line_starts, made.places.starts
     first, last = (min(line, len(line_starts) - 1) for line in (lines.start, lines.stop - 1))
     end = len(made.source.text) if last + 1 == len(line_starts) else line_starts[last + 1]
-    begin = min(bisect_right(starts, line_starts[first]), len(made.pieces)) - 1
+    begin = min(starts.last_to(line_starts[first]), len(made.pieces) - 1)
     return range(begin, max(bisect_left(starts, end), begin + 1))
 
 

@@ -95,7 +95,7 @@ def forms_of(analysis: Analysis, previous: Forms | None = None) -> Forms:
     written = previous._written if previous and same else {}
     reaches = [form.reach for form in forms if form.reach is not _Reach.NONE]
     alone = _Reach.ALL not in reaches and len(reaches) < 2
-    return Forms(alone, (made.source.text, made.places.starts), forms, words, sound, written)
+    return Forms(alone, (made.source.text, tuple(made.places.starts)), forms, words, sound, written)
 
 
 def _form(piece: Statement) -> _Form:
@@ -116,7 +116,7 @@ def _reach(piece: Statement, types: set[str]) -> _Reach:
 def _is_wrong(piece: Statement) -> bool:
     """Return whether some of a piece may be kept as written."""
     if isinstance(piece, WholeBlock):
-        return has_errors(piece.told) or any(map(_is_wrong, piece.lines))
+        return has_errors(piece.told_as_whole) or any(map(_is_wrong, piece.lines))
     return bool(piece.misread) or piece.broken
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from bisect import bisect_right
 from collections import defaultdict
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
@@ -42,7 +41,7 @@ def still_foreseen(told: Foreseen, before: Analysis, now: Analysis) -> Foreseen:
     now_at = {id(piece): start for piece, start in zip(now.made.pieces, now.made.places.starts, strict=False)}
     left: dict[Span, Going] = {}
     for command, going in told.goings.items():
-        at = max(bisect_right(starts, command.start, hi=len(pieces)) - 1, 0)
+        at = min(starts.last_to(command.start), len(pieces) - 1)
         start = now_at.get(id(pieces[at]))
         if start is not None:
             further = start - starts[at]

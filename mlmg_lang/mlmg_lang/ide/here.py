@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from bisect import bisect_left, bisect_right
-from collections.abc import Iterator, Sequence
+from bisect import bisect_left
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from itertools import chain
+from itertools import chain, takewhile
 from typing import Final
 
 from mlmg_lang.analysis import Analysis, InPieces, Question
+from mlmg_lang.chunks import Chunks
 from mlmg_lang.ide.cursor import cursor_at
 from mlmg_lang.moving import by, moved
 from mlmg_lang.parsing.tokens import Token
@@ -27,7 +28,7 @@ def tokens_around(analysis: Analysis, offset: int) -> tuple[Token, ...]:
     """
     made = analysis.made
     starts, lines = made.places.line_starts, made.lines
-    at = max(bisect_right(starts, offset) - 1, 0)
+    at = starts.last_to(offset)
     first = next((number for number in range(at - 1, -1, -1) if lines[number].solid), 0)
     before, behind = _around(made, offset, first, at + 2)
     numbers = (*_braces(lines, before), *range(first, min(at + 2, len(lines))), *_braces(lines, behind))
@@ -37,14 +38,14 @@ def tokens_around(analysis: Analysis, offset: int) -> tuple[Token, ...]:
 def _around(made: InPieces, offset: int, first: int, end: int) -> tuple[range, range]:
     """Return the lines of the block at an offset that stand before and behind some."""
     starts = made.places.starts
-    at = max(bisect_right(starts, offset) - 1, 0)
+    at = starts.last_to(offset)
     whole = (bisect_left(made.places.line_starts, one) for one in starts[at : at + 2])
     return range(min(next(whole), first), first), range(end, next(whole, end))
 
 
-def _braces(lines: Sequence[Piece], among: range) -> Iterator[int]:
+def _braces(lines: Chunks[Piece], among: range) -> Iterator[int]:
     """Yield those of some lines that have braces with partners in others."""
-    return (number for number in among if lines[number].marks)
+    return takewhile(among.__contains__, lines.where("marks", among.start))
 
 
 def _tokens(line: Piece, start: int) -> tuple[Token, ...]:
@@ -89,7 +90,7 @@ def _played_before(analysis: Analysis, script: Source, statement: Span) -> flow.
     from mlmg_lang.front_end import analyse_again
 
     cut_off = analyse_again(analysis, script).ready
-    at = bisect_right(cut_off.places.starts, statement.start) - 1
+    at = cut_off.places.starts.last_to(statement.start)
     if not 0 <= at < len(cut_off.played):
         return None
     states = cut_off.played[at].states

@@ -170,7 +170,7 @@ def _tokens_at(analysis: Analysis, offset: int) -> tuple[Sequence[Token], int]:
     if offset > len(source.text):
         file, base = source.file(offset)
         return tokenize(Source(file.text)), base
-    number = min(bisect_right(made.places.line_starts, offset), len(made.lines)) - 1
+    number = min(made.places.line_starts.last_to(offset), len(made.lines) - 1)
     line = made.lines[number]
     return line.tokens, made.places.line_starts[number] - line.address
 

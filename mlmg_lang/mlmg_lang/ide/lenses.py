@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 from mlmg_lang.analysis import Analysis, InPieces
+from mlmg_lang.chunks import all_of
 from mlmg_lang.parsing import syntax
-from mlmg_lang.pieces import all_of
 from mlmg_lang.planning import resolved
 from mlmg_lang.source import Span
 

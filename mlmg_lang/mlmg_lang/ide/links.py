@@ -6,7 +6,6 @@ from dataclasses import dataclass
 
 from mlmg_lang.analysis import Analysis
 from mlmg_lang.parsing import syntax
-from mlmg_lang.pieces import all_of
 from mlmg_lang.source import Span
 
 
@@ -22,7 +21,7 @@ def document_links(analysis: Analysis) -> tuple[Link, ...]:
     """Return the paths of a script, in the order of the text; those that lead nowhere are reported elsewhere."""
     made = analysis.made
     named = made.gathered.used.named
-    paths = (item.path for item in all_of(made.lines, "items") if isinstance(item, syntax.Use))
+    paths = (item.path for item in made.lines.all("defining") if isinstance(item, syntax.Use))
     return tuple(Link(made.places(path.span), named[path.span]) for path in paths if path.span in named)
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from bisect import bisect_right
 from dataclasses import dataclass
 
 from mlmg_lang.analysis import Analysis
@@ -52,5 +51,5 @@ def state_before(analysis: Analysis, statement: Statement) -> State | None:
     made, span = analysis.made, statement.item.span
     if made.resolution is not None:
         return made.resolution.states.get(span)
-    number = bisect_right(made.places.starts, statement.at(span).start) - 1
+    number = made.places.starts.last_to(statement.at(span).start)
     return made.played[number].states.get(span) if number < len(made.played) else None

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from bisect import bisect_right
 from collections.abc import Collection, Iterable, Iterator
 from typing import Final
 
@@ -28,7 +27,7 @@ def selection(analysis: Analysis, offset: int) -> tuple[Span, ...]:
     offset = min(max(offset, 0), whole.end)
     spans = {whole}
     if made.pieces:
-        at = min(bisect_right(made.places.starts, offset), len(made.pieces)) - 1
+        at = min(made.places.starts.last_to(offset), len(made.pieces) - 1)
         piece, further = made.pieces[at], made.places.starts[at] - made.pieces[at].address
         spans |= {Span(one.start + further, one.end + further) for one in _around(piece, offset - further)}
     ordered = sorted(spans, key=lambda span: (span.end - span.start, span))

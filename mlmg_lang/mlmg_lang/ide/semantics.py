@@ -115,7 +115,7 @@ def paint(analysis: Analysis, previous: Painting | None = None) -> Painting:
         if text not in kept:
             kept[text] = _painted(text, piece, against)
         parts.append(kept[text])
-    return Painting(tuple(parts), made.places.starts, against)
+    return Painting(tuple(parts), tuple(made.places.starts), against)
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from bisect import bisect_right
 from collections.abc import Iterator
 
 from mlmg_lang.analysis import Analysis
@@ -15,7 +14,7 @@ def pieces_touching(analysis: Analysis, within: Span) -> Iterator[tuple[Piece | 
     """Yield the pieces that a stretch touches, each with how far from its address it stands."""
     made = analysis.made
     starts = made.places.starts
-    first = min(bisect_right(starts, within.start), len(made.pieces)) - 1
+    first = min(starts.last_to(within.start), len(made.pieces) - 1)
     for at in range(max(0, first), len(made.pieces)):
         if starts[at] > within.end:
             return

@@ -68,6 +68,16 @@ class Balance:
     n_open: int
     parts: bool
 
+    @property
+    def ends_before(self) -> bool:
+        """Return whether the last open parenthesis before what comes next is one of these, or none before these."""
+        return self.n_open > 0 or self.parts
+
+    @property
+    def ends_after(self) -> bool:
+        """Return whether the first that closes one before these lines is one of these, or none after these."""
+        return self.n_closing > 0 or self.parts
+
 
 def balance(tokens: Sequence[Token], depth: int = 0) -> Balance:
     """Return what parentheses are left without a partner in some whole lines; `depth`: see `cut`."""

@@ -6,17 +6,18 @@ commands are resolved again until what may be playing is what could be playing t
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import accumulate, chain, pairwise
-from operator import attrgetter
 
-from mlmg_lang.blocks import WholeBlock
+from mlmg_lang.blocks import Statement
 from mlmg_lang.catalog import Catalog
+from mlmg_lang.chunks import Chunks
 from mlmg_lang.diagnostics import Diagnostic
 from mlmg_lang.parsing.nesting import Opened
 from mlmg_lang.parsing.syntax import RepeatHead
 from mlmg_lang.pieces import Piece
+from mlmg_lang.places import Places
 from mlmg_lang.planning import flow, resolved
 from mlmg_lang.planning.chart import chart
 from mlmg_lang.planning.names import Names
@@ -39,7 +40,7 @@ class Played:
 
     Attributes
     ----------
-    line : on which it began when that was found out.
+    row : how many line ends there were before it when that was found out.
     before : what could be playing before its first step when that was first taken; None if no step comes any more.
     sound : whether with that alone, all from there comes out the same.
     states : what may be playing before each of its statements that holds no others; others may be with them.
@@ -48,7 +49,7 @@ class Played:
     """
 
     statements: tuple[resolved.Statement, ...]
-    line: int
+    row: int
     before: flow.State | None
     sound: bool
     states: Mapping[Span, flow.State]
@@ -57,19 +58,19 @@ class Played:
     hints: tuple[Diagnostic, ...]
 
 
-NOT_PLAYED = Played((), 1, None, False, {}, {}, (), ())
+NOT_PLAYED = Played((), 0, None, False, {}, {}, (), ())
 """In place of what is not known yet."""
 
 
-def keyed(lines: Sequence[Piece]) -> list[range]:
+def keyed(lines: Iterable[Piece]) -> Chunks[range]:
     """Return keys for the steps of all lines."""
     ends = list(accumulate((GAP * _n_steps(line) for line in lines), initial=GAP))
-    return [range(first, end, GAP) for first, end in pairwise(ends)]
+    return Chunks(range(first, end, GAP) for first, end in pairwise(ends))
 
 
 def keyed_between(
-    lines: Sequence[Piece], known: Sequence[range], runs: Iterable[range], serial: int
-) -> list[range] | None:
+    lines: Sequence[Piece], known: Chunks[range], runs: Iterable[range], serial: int
+) -> Chunks[range] | None:
     """Return the keys of all lines, where some get such as none has had, between those around; None without room.
 
     Parameters
@@ -77,7 +78,7 @@ def keyed_between(
     known : the keys so far. runs : the lines that get others.
     serial : how many times pieces have changed.
     """
-    keys = list(known)
+    keys = known
     for run in runs:
         n_steps = [_n_steps(lines[at]) for at in run]
         low = next((keys[at][-1] for at in reversed(range(run.start)) if keys[at]), 0) // _SERIALS
@@ -86,19 +87,9 @@ def keyed_between(
         if step == 0 or serial >= _SERIALS:
             return None
         ends = [(low + step * n) * _SERIALS + serial for n in accumulate(n_steps, initial=1)]
-        keys[run.start : run.stop] = [range(first, end, step * _SERIALS) for first, end in pairwise(ends)]
+        own = [range(first, end, step * _SERIALS) for first, end in pairwise(ends)]
+        keys = keys.spliced(run.start, run.stop, own)
     return keys
-
-
-def by_piece(keys: Sequence[range], pieces: Sequence[Piece | WholeBlock]) -> Sequence[Sequence[int]]:
-    """Return the keys of the steps of pieces, from those of the lines."""
-    if len(keys) == len(pieces):
-        return keys
-    ends = list(accumulate(map(attrgetter("n_lines"), pieces), initial=0))
-    return [
-        keys[first] if end == first + 1 else tuple(chain.from_iterable(keys[first:end]))
-        for first, end in pairwise(ends)
-    ]
 
 
 def _n_steps(line: Piece) -> int:
@@ -107,27 +98,16 @@ def _n_steps(line: Piece) -> int:
     return heads + len(chart(line.statements))
 
 
-def played_of(
-    pieces: Sequence[Piece | WholeBlock], lines: Iterable[int], keys: Sequence[Sequence[int]], resolution: Resolution
-) -> list[Played]:
-    """Return what pieces play that have been resolved together, without hints.
+def with_unknown(known: Chunks[Played], first: int, n_new: int, end: int) -> tuple[Chunks[Played], Sequence[Moves]]:
+    """Return what pieces play where those from `first` to before `end` have become others, of which that is not known.
 
-    Parameters
-    ----------
-    lines : on which the pieces begin.
+    Only what could be playing before the first of these is; the rest is what commands have done in those before them.
     """
-    sound, reached = frozenset(resolution.sound), resolution.reached
-    by_span = {statement.span: statement for statement in resolution.plan.statements}
-    played = []
-    number = 0
-    for piece, line, own in zip(pieces, lines, keys, strict=True):
-        statements = tuple(by_span[one.span] for one in piece.statements if one.span in by_span)
-        before = reached[number] if number < len(reached) else None
-        steps = range(number, number + len(own))
-        told = tuple(resolution.told[step] for step in steps if step in resolution.told)
-        played.append(Played(statements, line, before, number in sound, resolution.states, resolution.moves, told, ()))
-        number = steps.stop
-    return played
+    gone, fresh = known[first:end], [NOT_PLAYED] * n_new
+    if fresh and first < len(known):
+        fresh[0] = replace(NOT_PLAYED, before=known[first].before, sound=known[first].sound)
+    moves = {id(one.moves): one.moves for one in gone}
+    return known.spliced(first, end, fresh), tuple(moves.values())
 
 
 @dataclass(frozen=True, slots=True)
@@ -136,20 +116,24 @@ class Player:
 
     Attributes
     ----------
-    line_of : the line on which a piece begins. keys : of the steps of each.
+    keys : of the steps of each line.
     start : the motion that the script starts in.
     earlier : what commands have done in pieces that are no more.
     """
 
-    pieces: Sequence[Piece | WholeBlock]
-    line_of: Callable[[int], int]
-    keys: Sequence[Sequence[int]]
+    places: Places
+    keys: Chunks[range]
     library: tuple[Names, Catalog]
     source: Source
     start: str
     earlier: Sequence[Moves] = ()
 
-    def replay(self, known: Sequence[Played], changed: Iterable[range]) -> list[Played]:
+    def played(self, resolution: Resolution) -> Chunks[Played]:
+        """Return what all pieces play, which have been resolved together."""
+        everything = range(len(self.places.pieces))
+        return self._hinted(Chunks(self._of(resolution, everything)), [everything])
+
+    def replay(self, known: Chunks[Played], changed: Iterable[range]) -> Chunks[Played]:
         """Return what all pieces play.
 
         Parameters
@@ -157,34 +141,32 @@ class Player:
         known : what they played before; of those that have changed, only what could be playing before the first.
         changed : the pieces that have, in order.
         """
-        played, parts, done = list(known), list[range](), 0
+        played, parts, done = known, list[range](), 0
         for run in changed:
             if run.stop > done:
-                part = self._play(played, max(run.start, done), run.stop)
+                part, resolution = self._play(played, max(run.start, done), run.stop)
+                played = played.spliced(part.start, part.stop, tuple(self._of(resolution, part)))
                 parts.append(part)
                 done = part.stop
-        return self.hinted(played, parts)
+        return self._hinted(played, parts)
 
-    def _play(self, played: list[Played], first: int, end: int) -> range:
-        """Resolve pieces that have changed, and others as far as they may play something else; return all these."""
-        low, width = _sound_before(first, played), 4
+    def _play(self, known: Chunks[Played], first: int, end: int) -> tuple[range, Resolution]:
+        """Resolve pieces that have changed, and others as far as they may play something else; return which."""
+        low, width, n_pieces = _sound(known, first), 4, len(self.places.pieces)
         while True:
-            high = min(end + width, len(self.pieces))
+            high = min(end + width, n_pieces)
             try:
-                resolution, high = self._resolved(range(low, high), end, played)
+                resolution, high = self._resolved(range(low, high), end, known)
             except ReachesBack as back:
-                low = _sound_before(_holder(back.key, self.keys, low), played)
+                low = _sound(known, self._holder(back.key, low))
                 continue
-            if resolution.joins is not None or high == len(self.pieces):
-                lines = map(self.line_of, range(low, high))
-                played[low:high] = played_of(self.pieces[low:high], lines, self.keys[low:high], resolution)
-                return range(low, high)
+            if resolution.joins is not None or high == n_pieces:
+                return range(low, high), resolution
             width *= 4
 
     def _resolved(self, part: range, end: int, known: Sequence[Played]) -> tuple[Resolution, int]:
         """Return what some pieces play, and at which piece all from there is known."""
-        pieces = self.pieces[part.start : part.stop]
-        own = self.keys[part.start : part.stop]
+        pieces, own = self._pieces(part), self._keys(part)
         first_steps = list(accumulate(map(len, own), initial=0))
         states: dict[int, flow.State] = {}
         joined_at: dict[int, int] = {}
@@ -202,20 +184,48 @@ class Player:
         resolution = resolve_part(statements, self.library, self.source, (self.start, state), steps, states, recall)
         return resolution, part.stop if resolution.joins is None else joined_at[resolution.joins]
 
-    def hinted(self, played: Sequence[Played], parts: Iterable[range]) -> list[Played]:
+    def _of(self, resolution: Resolution, part: range) -> Iterator[Played]:
+        """Yield what some pieces play that have been resolved together, without hints."""
+        sound, reached = frozenset(resolution.sound), resolution.reached
+        by_span = {statement.span: statement for statement in resolution.plan.statements}
+        number = 0
+        for at, piece, own in zip(part, self._pieces(part), self._keys(part), strict=True):
+            statements = tuple(by_span[one.span] for one in piece.statements if one.span in by_span)
+            before = reached[number] if number < len(reached) else None
+            steps = range(number, number + len(own))
+            told = tuple(resolution.told[step] for step in steps if step in resolution.told)
+            row, states, moves = self.places.row(at), resolution.states, resolution.moves
+            yield Played(statements, row, before, number in sound, states, moves, told, ())
+            number = steps.stop
+
+    def _pieces(self, part: range) -> Sequence[Statement]:
+        return self.places.pieces[part.start : part.stop]
+
+    def _keys(self, part: range) -> list[Sequence[int]]:
+        """Return the keys of the steps of some pieces."""
+        bounds = self.places.first_lines[part.start : part.stop + 1]
+        keys = self.keys[bounds[0] : bounds[-1]]
+        stretches = (keys[first - bounds[0] : end - bounds[0]] for first, end in pairwise(bounds))
+        return [own[0] if len(own) == 1 else tuple(chain.from_iterable(own)) for own in stretches]
+
+    def _holder(self, key: int, before: int) -> int:
+        """Return the piece that has a step, one that is before some piece."""
+        lines = reversed(range(self.places.first_lines[before]))
+        return self.places.first_lines.last_to(next(at for at in lines if key in self.keys[at]))
+
+    def _hinted(self, played: Chunks[Played], parts: Iterable[range]) -> Chunks[Played]:
         """Return what pieces play, with what could be better in some of them, and in the last statement before each."""
-        found = list(played)
+        found: dict[int, Played] = {}
         for part in parts:
-            before = next((at for at in reversed(range(part.start)) if played[at].statements), None)
+            before = next(played.where_back("statements", part.start), None)
             for at in (*([] if before is None else [before]), *part):
                 if played[at].statements:
                     found[at] = replace(played[at], hints=self._hints(played, at))
-        return found
+        return played.replaced(found)
 
-    def _hints(self, played: Sequence[Played], at: int) -> tuple[Diagnostic, ...]:
+    def _hints(self, played: Chunks[Played], at: int) -> tuple[Diagnostic, ...]:
         own, states = played[at].statements, played[at].states
-        later = (played[number].statements for number in range(at + 1, len(played)))
-        following = next((statements[0] for statements in later if statements), None)
+        following = next((played[number].statements[0] for number in played.where("statements", at + 1)), None)
         beside = (*own, following) if isinstance(following, resolved.Command) else own
         alone, around = (
             Resolution(resolved.ResolvedPlan(self.source, self.start, part), (), {}, states, (), (), {})
@@ -225,11 +235,6 @@ class Player:
         return (*left_at_once(around, names), *unusual(alone, names, catalog))
 
 
-def _sound_before(at: int, known: Sequence[Played]) -> int:
+def _sound(known: Chunks[Played], at: int) -> int:
     """Return the last piece up to one from which one can begin again."""
-    return next((n for n in range(min(at, len(known) - 1), 0, -1) if known[n].sound), 0)
-
-
-def _holder(key: int, keys: Sequence[Sequence[int]], before: int) -> int:
-    """Return the piece that has a step."""
-    return next(at for at in range(before - 1, -1, -1) if key in keys[at])
+    return next(known.where_back("sound", at + 1), 0)
