@@ -436,6 +436,15 @@ def test_a_name_that_stands_for_a_graph_by_mistake_is_told_of_as_soon_as_it_is_d
     check(before, 'let WALK = IDLE\nWALK " for 2 sec\n', library)
 
 
+def test_a_slip_of_a_name_that_is_defined_now_is_told_of_in_a_line_with_another_mistake_too(
+    libraries: Mapping[str, Any],
+) -> None:
+    library = libraries["reference"]
+    text = "Wuppe\uff03(IDLE, 3 sec)\nIDLE for 1 sec\nTALK for 1 sec\n"
+    again = check(analyse(Source(text), library), f"{text}let Wuppy = WALK\n", library)
+    assert "MS021" in {one.code for one in again.diagnostics}
+
+
 LONG_BODY = "WALK for 2 sec\nIDLE for 2 sec\n" * 50
 
 
