@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -130,3 +131,25 @@ def world_transforms(skeleton: Skeleton, poses: Poses) -> tuple[FloatArray, Floa
         moved = rotations.rotate(world_rotation[:, parent], offset)
         world_position[:, joint] = world_position[:, parent] + moved
     return world_rotation, world_position
+
+
+def carried_positions(
+    skeleton: Skeleton, world_rotation: FloatArray, world_position: FloatArray, joints: Sequence[int]
+) -> FloatArray:
+    """Return where joints of a body part are as seen from what carries them, shape (n_frames, len(joints), 3).
+
+    A joint is carried by the nearest joint above it that is not one of them; it is seen in that one's frame.
+
+    Parameters
+    ----------
+    world_rotation, world_position : of all joints, from `world_transforms`.
+    joints : of the part; not the travel joint, which nothing carries.
+    """
+    carriers = []
+    for joint in joints:
+        carrier = skeleton.parents[joint]
+        while carrier in joints:
+            carrier = skeleton.parents[carrier]
+        carriers.append(carrier)
+    away = world_position[:, list(joints)] - world_position[:, carriers]
+    return rotations.rotate(rotations.inverse(world_rotation[:, carriers]), away)

@@ -20,17 +20,15 @@ from mlmg_runtime.building.hurry import hurry
 from mlmg_runtime.building.load_clips import Clips, load_clips
 from mlmg_runtime.built_library import BuiltLibrary, GraphReport
 from mlmg_runtime.motion_graph import TRANSITION, UNREACHABLE, MotionGraph, transition_cost
+from mlmg_runtime.pace import creep, stature
 from mlmg_runtime.point_cloud import PointCloud, point_cloud, window_distances
-from mlmg_runtime.skeleton import Skeleton, world_positions
+from mlmg_runtime.skeleton import world_positions
 
 # Windows this alike, root mean square over the joints, blend without being seen; a share of the body's height.
 SMOOTH_SHARE = 0.02
 # A bridge may lead a joint by steps this many times as long as its longest in the two clips. Blends of rotations make
 # steps up to a tenth longer than blends of positions tell; what is shown is not to go half as fast again.
 LARGEST_HURRY = 1.3
-# So fast, in shares of the body's height a second, toes that else stand still are hardly seen to move. Without this, a
-# person who stands and talks would have to walk about to go on talking.
-CREEP_SHARE_S = 0.045
 
 Progress = Callable[[str, int, int], None]
 
@@ -60,14 +58,14 @@ def build_library(configuration: LibraryConfiguration, executor: Executor | None
     parents = graph_parents(configuration, joints, clips.skeleton)
     check_start(configuration, configuration.graphs[parents.index(None)])
     points = {name: world_positions(clips.skeleton, poses) for name, poses in clips.poses.items()}
-    stature = _stature(clips.skeleton, points)
+    height = stature(clips.skeleton, points.values())
     built = []
     for index in _highest_first(joints):
         settings, parent = configuration.graphs[index], parents[index]
         tell = partial(progress, f"comparing the motions of {settings.name}")
         own = tuple(sorted(joints[index]))
         name_above = None if parent is None else configuration.graphs[parent].name
-        built.append(_build_graph(settings, name_above, own, clips, points, stature, executor, tell))
+        built.append(_build_graph(settings, name_above, own, clips, points, height, executor, tell))
     root = built[0][0]
     return BuiltLibrary(
         skeleton=clips.skeleton,
@@ -95,19 +93,13 @@ def _highest_first(joints: Sequence[frozenset[int]]) -> list[int]:
     return sorted(range(len(joints)), key=lambda index: depth[index])
 
 
-def _stature(skeleton: Skeleton, points: Mapping[str, FloatArray]) -> float:
-    """Return how tall the body usually stands: the median height of its highest joint over its lowest."""
-    heights = [np.ptp(p[:, skeleton.travel :, 1], axis=1) for p in points.values()]
-    return float(np.median(np.concatenate(heights)))
-
-
 def _build_graph(
     settings: GraphConfiguration,
     parent: str | None,
     joints: tuple[int, ...],
     clips: Clips,
     points: Mapping[str, FloatArray],
-    stature: float,
+    height: float,
     executor: Executor | None,
     tell: Callable[[int, int], None],
 ) -> tuple[MotionGraph, GraphReport]:
@@ -124,13 +116,13 @@ def _build_graph(
         results.append(result)
     tell(len(pairs), len(pairs))
     points_in_window = settings.window * float(weights.sum())
-    sigma = _sigma(settings, results, points_in_window * (SMOOTH_SHARE * stature) ** 2)
+    sigma = _sigma(settings, results, points_in_window * (SMOOTH_SHARE * height) ** 2)
     forbidden = np.array([[(x, y) in settings.forbidden for y in motions] for x in motions])
     edges = _edges(settings.window, forbidden, pairs, results)
     positions = Positions(n_frames)
     if settings.threshold.kind == "auto":
         own = [points[motion][:, list(joints)] for motion in motions]
-        moves = hurry(own, weights, settings.window, settings.blend, CREEP_SHARE_S * stature / clips.frame_rate)
+        moves = hurry(own, weights, settings.window, settings.blend, creep(height, clips.frame_rate))
         kept = edges.where(bridges(positions, edges, sigma, settings.window, lambda e: moves.of(e) > LARGEST_HURRY))
     else:
         kept = edges.where(edges.distance <= sigma)

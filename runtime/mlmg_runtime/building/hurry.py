@@ -14,6 +14,7 @@ import numpy as np
 from mlmg_runtime.arrays import FloatArray, IntArray
 from mlmg_runtime.blending import WEIGHTS
 from mlmg_runtime.building.connect import Edges
+from mlmg_runtime.pace import steps
 from mlmg_runtime.point_cloud import best_fit
 
 # So many transitions are blended at once; their points take some 20 MB.
@@ -64,9 +65,9 @@ class Hurry:
         weight = np.concatenate(([1.0], weight, [0.0]))[:, None]
         across = np.diff(weight * (source[..., 0] + 1j * source[..., 2]) + (1.0 - weight) * ground, axis=1)
         up = np.diff(weight * source[..., 1] + (1.0 - weight) * target[..., 1], axis=1)
-        steps = np.sqrt(across.real**2 + across.imag**2 + up**2).max(axis=1)
+        taken = np.sqrt(across.real**2 + across.imag**2 + up**2).max(axis=1)
         longest = np.maximum(self.longest[edges.src_motion], self.longest[edges.dst_motion])
-        return np.asarray((steps / np.maximum(longest, np.finfo(float).tiny)).max(axis=1))
+        return np.asarray((taken / np.maximum(longest, np.finfo(float).tiny)).max(axis=1))
 
     def _points(self, motion: IntArray, frame: IntArray) -> FloatArray:
         """Return windows and the frames before and after them, shape (n, k + 2, n_joints, 3); clips' ends repeated."""
@@ -84,6 +85,6 @@ def hurry(points: Sequence[FloatArray], weights: FloatArray, window: int, blend:
     weights, window, blend : as the graph is configured.
     creep : the longest step that is hardly seen, in the length unit.
     """
-    longest = [np.linalg.norm(np.diff(p, axis=0), axis=-1).max(axis=0, initial=creep) for p in points]
+    longest = [steps(p).max(axis=0, initial=creep) for p in points]
     first = np.cumsum([0, *(len(p) for p in points)])
     return Hurry(np.concatenate(points), first, np.array(longest), weights, window, blend)

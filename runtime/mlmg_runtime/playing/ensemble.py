@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator, Sequence
 from copy import copy
 from dataclasses import dataclass, field, replace
+from itertools import chain
 
 from mlmg_runtime.library import Library
 from mlmg_runtime.motion_graph import MotionGraph, Position
@@ -119,6 +120,11 @@ class Ensemble:
         """Yield, without end, what a track will play; `joining` are parts that are about to run below it."""
         allowed = self.allowed(track.graph.name, joining)
         return stay(self._likeness, track.graph, track.home, track.position, track.time, allowed)
+
+    def coming(self, track: Track) -> Iterator[Segment]:
+        """Yield, without end, what a track plays from `now` on: what it is about to play, and then to stay."""
+        settled = (segment for segment in track.segments if segment.end > self.now)
+        return chain(settled, self.stay(track))
 
     def clips_above(
         self, graph: MotionGraph, track: Track, joining: Collection[str] = (), deadline: int | None = None

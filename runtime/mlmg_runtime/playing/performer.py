@@ -13,6 +13,7 @@ from mlmg_runtime.library import Library
 from mlmg_runtime.motion_graph import Position
 from mlmg_runtime.playing.departing import Departing, Departure, aim
 from mlmg_runtime.playing.ensemble import Ensemble, Track
+from mlmg_runtime.playing.longest_steps import LongestSteps
 from mlmg_runtime.playing.releasing import release
 from mlmg_runtime.playing.returning import find_return
 from mlmg_runtime.playing.timeline import Segment, Timeline, play_clip
@@ -29,10 +30,12 @@ class Performer:
     library: Library
     start: str
     _ensemble: Ensemble = field(init=False)
+    _longest_steps: LongestSteps = field(init=False)
 
     def __post_init__(self) -> None:
         """Put the whole body into the start motion."""
         self._ensemble = Ensemble(self.library)
+        self._longest_steps = LongestSteps(self.library)
         root = self.library.root
         home = root.index[self.start]
         self._ensemble.running[root.name] = Track(root, home, Position(home, 0), 0)
@@ -194,5 +197,7 @@ class Performer:
         driver = self._ensemble.driver(self.library.ancestors(track.graph.name)[0])
         above = list(self._ensemble.clips_above(track.graph, driver, deadline=deadline))
         way = find_return(track.graph, track.position, track.time, above, deadline)
-        stays = self._ensemble.stay(track)
-        return release(self.library, track.graph, stays, above, deadline) if way is None else way
+        if way is not None:
+            return way
+        own, ahead = self._ensemble.stay(track), self._ensemble.coming(driver)
+        return release(self._longest_steps, track.graph, own, driver.graph, ahead, deadline)
