@@ -6,8 +6,15 @@ import pytest
 from mlmg_runtime.arrays import FloatArray
 from mlmg_runtime.bvh import Bvh, Joint
 from mlmg_runtime.clips import poses_from_bvh, skeleton_from_bvh
-from mlmg_runtime.rotations import rotate
-from mlmg_runtime.skeleton import Poses, Skeleton, has_positions, world_positions, world_transforms
+from mlmg_runtime.rotations import normalized, rotate
+from mlmg_runtime.skeleton import (
+    Poses,
+    Skeleton,
+    carried_positions,
+    has_positions,
+    world_positions,
+    world_transforms,
+)
 
 TURNS = ("Zrotation", "Xrotation", "Yrotation")
 ALL = ("Xposition", "Yposition", "Zposition", *TURNS)
@@ -90,6 +97,23 @@ def test_joints_above_the_travel_joint_stand_at_the_origin() -> None:
     turned, positions = world_transforms(standing, Poses(rotations, place))
     np.testing.assert_array_equal(positions[:, :2], np.stack((np.zeros((2, 3)), place[:, 0]), axis=1))
     np.testing.assert_array_equal(turned[:, 0], [[1.0, 0.0, 0.0, 0.0]] * 2)
+
+
+@pytest.mark.parametrize(("joints", "carriers"), [((1, 2, 3, 4), (0, 0, 0, 0)), ((3,), (2,)), ((3, 5), (2, 0))])
+def test_a_part_is_seen_from_what_carries_it_however_that_moves(joints, carriers) -> None:
+    draw = np.random.default_rng(0)
+    pose = normalized(draw.normal(size=(1, 6, 4)))
+    turned = np.repeat(pose, 8, axis=0)
+    above = [joint for joint in range(6) if joint not in joints]
+    turned[:, above] = normalized(draw.normal(size=(8, len(above), 4)))
+    places = draw.normal(size=(8, 2, 3))
+    places[:, 1] = places[0, 1]
+    world = world_transforms(BODY, Poses(turned, places))
+    found = carried_positions(BODY, *world, joints)
+    np.testing.assert_allclose(found, np.repeat(found[:1], 8, axis=0), atol=1e-12)
+    for column, (joint, carrier) in enumerate(zip(joints, carriers, strict=True)):
+        apart = np.linalg.norm(world[1][:, joint] - world[1][:, carrier], axis=-1)
+        np.testing.assert_allclose(np.linalg.norm(found[:, column], axis=-1), apart)
 
 
 def test_poses_share_the_memory_of_their_parts() -> None:
