@@ -275,15 +275,18 @@ class Change:
 def touched(before: InPieces, change: Change) -> list[int]:
     """Return the lines that may mean something else: new ones, users of what has changed, and mistakes.
 
-    A name that means nothing may be a slip of one that is defined now, or be no longer.
+    A name that means nothing may be a slip of one that is defined now, or be no longer; and where not all definitions
+    are known, it may be that of one.
     """
     lines = change.made.lines
     new = {*range(change.first, change.first + change.n_new), *change.again}
     if change.made.gathered is before.gathered:
         return sorted(new)
-    known = ((list(of.lets), of.unread) for of in (one.gathered.definitions for one in (before, change.made)))
-    if next(known) != next(known):
+    old, now = before.gathered.definitions, change.made.gathered.definitions
+    if (list(old.lets), old.unread) != (list(now.lets), now.unread):
         new.update(lines.where("said"), lines.where("n_named"))
+    if old.complete != now.complete:
+        new.update(lines.where("told"), lines.where("is_faulty"), lines.where("miscalls"))
     return sorted(new.union(lines.where_among("names", change.names)))
 
 

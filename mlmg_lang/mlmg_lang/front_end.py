@@ -21,7 +21,7 @@ from mlmg_lang.parsing.lookalikes import opens_or_closes
 from mlmg_lang.parsing.parse import MAX_MISTAKES, read_marks
 from mlmg_lang.parsing.quotes import requoted
 from mlmg_lang.parsing.structure import check_definition, check_structure, misplaced
-from mlmg_lang.parsing.syntax import BrokenDefinition, Item, Let, Script, Use
+from mlmg_lang.parsing.syntax import Item, Let, Script, Use
 from mlmg_lang.parsing.tokenize import MAX_TOKENS, tokenize
 from mlmg_lang.parsing.tokens import Token
 from mlmg_lang.pieces import Piece, lines_of
@@ -192,11 +192,6 @@ class _Reader:
         return items if items != piece.items else piece.items, self._expander.all_nodes - n_nodes, said
 
 
-def _is_open(item: Item) -> bool:
-    """Return whether an item may have been meant to define any names."""
-    return isinstance(item, BrokenDefinition) and not item.names
-
-
 def _defining(lines: Chunks[Piece], pieces: Chunks[Statement]) -> Script:
     """Return the definitions of a script: those in blocks too, as they have been reported, but not the files there."""
     lets = (item for item in lines.all("defining") if not isinstance(item, Use))
@@ -346,7 +341,7 @@ def _defined_again(before: InPieces, change: Change | None) -> Change | None:
         return change
     items = _defining(lines, lines)
     moved = items.items if change.moves_braces(before) else ()
-    if any(isinstance(item, Use) or _is_open(item) for item in (*defining, *moved)):
+    if any(isinstance(item, Use) for item in (*defining, *moved)):
         return None
     if not defining:
         return change

@@ -21,9 +21,10 @@ from mlmg_lang.parsing import syntax
 from mlmg_lang.parsing.cutting import Balance, balance, cut
 from mlmg_lang.parsing.nesting import NO_STATEMENT, Around, Mark, after, folded
 from mlmg_lang.parsing.parse import Read, read_marks
+from mlmg_lang.parsing.structure import check_structure
 from mlmg_lang.parsing.tokenize import tokenize
 from mlmg_lang.parsing.tokens import Token
-from mlmg_lang.source import Source
+from mlmg_lang.source import Source, Span
 
 if TYPE_CHECKING:
     from mlmg_lang.planning import typed
@@ -100,6 +101,13 @@ class Piece:
     def balance(self) -> Balance:
         """Return its parentheses that may have their partners in other pieces."""
         return balance(self.tokens, len(self.around))
+
+    @cached_property
+    def miscalls(self) -> bool:
+        """Return whether it might call what is not defined, or what cannot be called so."""
+        return any(isinstance(node, syntax.Call) for item in self.expanded for node in syntax.walk(item)) and any(
+            check_structure(syntax.Script(self.expanded, Span(0, 0)), None)
+        )
 
     @cached_property
     def speaks(self) -> bool:

@@ -83,6 +83,12 @@ DEFINING = (
         "xx\n",
         "Upper-Body x\n",
         "H(1 sec)\n",
+        "let\n",
+        "let (\n",
+        "use\n",
+        "Upper-Body (TALK with IDLE)\n",
+        "WALK with Upper-Body (nobody)\n",
+        "nobody(WALK) for\n",
         "of_a for 1 sec\n",
         "of_b\n",
         "repeat 2 {\n x\n let q = IDLE\n}\n",
@@ -426,6 +432,18 @@ def test_a_definition_that_has_no_sound_name_is_no_statement_however_its_script_
     plan = check(before, "let A😀 = WALK\nlet B = =\nTALK\n", library).plan
     assert plan is not None
     assert [statement.span.start for statement in plan.statements] == [14, 24]
+
+
+@pytest.mark.parametrize(
+    "line", ["nobody for 1 sec", "nobody(WALK)", "Upper-Body (TALK with IDLE)", "nobody( for 1 sec"]
+)
+@pytest.mark.parametrize("name", ["none", "reference"])
+def test_while_a_definition_is_typed_only_what_may_be_meant_for_it_is_understood_again(
+    libraries: Mapping[str, Any], line: str, name: str
+) -> None:
+    text = f"WALK for 2 sec\n{line}\n" + "TALK for 2 sec\n" * 20
+    begun = check(analyse(Source(text), libraries[name]), f"{text}let", libraries[name])
+    assert n_kept(begun, check(begun, f"{text}let x = WALK", libraries[name])) >= 21
 
 
 def test_a_name_that_stands_for_a_graph_by_mistake_is_told_of_as_soon_as_it_is_defined(

@@ -290,6 +290,11 @@ def test_what_a_long_script_takes_grows_with_it_and_not_faster(reference: Any) -
 # --- the stages ---
 
 
+def test_layers_in_what_a_graph_is_to_do_are_no_plan_where_not_all_definitions_are_known(reference: Any) -> None:
+    analysis = analyse(Source("let\nUpper-Body (TALK with IDLE)\n"), reference)
+    assert [one.span for one in analysis.diagnostics] == [Span(0, 3)]
+
+
 def test_without_a_library_there_is_no_plan() -> None:
     analysis = analyse(Source("WALK"))
     assert (analysis.plan, analysis.resolved, analysis.diagnostics) == (None, None, ())

@@ -69,9 +69,9 @@ def check_definition(let: syntax.Let, frame_rate: float | None = None) -> Iterat
         yield from structure.duration(let.command.duration, parameters)
 
 
-def motion_mistakes(motion: syntax.Motion, complete: bool) -> Iterator[Diagnostic]:
-    """Yield what is wrong with one expression, of what `check_structure` says of it."""
-    return _Structure(None, complete).motion(motion, sub=False)
+def motion_mistakes(motion: syntax.Motion) -> Iterator[Diagnostic]:
+    """Yield what is wrong with one expression, of what `check_structure` says of it where all definitions are known."""
+    return _Structure(None, complete=True).motion(motion, sub=False)
 
 
 def is_sub(name: syntax.Name) -> bool:

@@ -132,7 +132,8 @@ class Planner:
     def _ways(self, motion: syntax.Motion, command: Span) -> tuple[typed.Layering, ...] | None:
         """Return the assignments that an expression allows; None, and that is reported, if there is none."""
         wrong = self._report(_written(unbound(motion, self._scope), command))
-        if wrong or any(motion_mistakes(motion, complete=not self._scope.open)):
+        # What is called now is a graph, even where it is not known yet what else is defined.
+        if wrong or any(motion_mistakes(motion)):
             return None
         ways = select(motion, self._scope.names, self._source, explains=self._scope.explains)
         if isinstance(ways, Diagnostic):
