@@ -47,7 +47,7 @@ class Definitions:
     Attributes
     ----------
     lets : by name, in NFC.
-    signatures : by name, the parameters of those that can be used; those with mistakes have none.
+    signatures : by name, the parameters of those that can be used; those with mistakes, in their text too, have none.
     complete : False if a file with more of them could not be used.
     unread : the names, in NFC, of those that could not be read.
     """
@@ -119,6 +119,7 @@ def gather_with(script: syntax.Script, used: Used) -> Gathered:
     twice = [one for part in (script, *used.scripts) for one in _defined(part, own)]
     lets = earlier | own
     found, wrong = signatures(lets)
+    found = {name: signature for name, signature in found.items() if not lets[name].mended}
     parts = (*used.earlier, script, *used.scripts)
     broken = [item for part in parts for item in part.items if isinstance(item, syntax.BrokenDefinition)]
     unread = frozenset(normal(name) for item in broken for name in item.names) - lets.keys()
@@ -162,6 +163,8 @@ class _Opener:
         for item in script.items:
             if isinstance(item, syntax.Use) and item.path.sound:
                 self._open(item, name, (*users, name))
+            elif isinstance(item, syntax.Use):
+                self.complete = False
 
     def _open(self, use: syntax.Use, user: str, users: Sequence[str]) -> None:
         found = self.files.find(use.path.text, user)

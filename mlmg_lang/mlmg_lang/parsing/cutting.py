@@ -14,6 +14,7 @@ from mlmg_lang.parsing.layout import inside_parentheses
 from mlmg_lang.parsing.lookalikes import as_meant
 from mlmg_lang.parsing.quotes import requoted, without_lone
 from mlmg_lang.parsing.strays import without_strays
+from mlmg_lang.parsing.swapped import in_order
 from mlmg_lang.parsing.tokens import CONTINUES, ENDS_PARENTHESES, OPENS_STATEMENT, Token
 
 
@@ -98,4 +99,4 @@ def balance(tokens: Sequence[Token], depth: int = 0) -> Balance:
 
 def _meant(tokens: Sequence[Token], depth: int) -> Sequence[Token]:
     """Return the tokens that layout goes by."""
-    return without_strays(without_lone(as_meant(requoted(tokens))), depth)
+    return without_strays(in_order(without_lone(as_meant(requoted(tokens)))), depth)

@@ -12,7 +12,7 @@ from itertools import accumulate
 from typing import Final, TypeAlias
 
 from mlmg_lang.diagnostics import Diagnostic, Fix
-from mlmg_lang.parsing.foreign import means_choose
+from mlmg_lang.parsing.foreign import means_choose, opens_block
 from mlmg_lang.parsing.tokens import CONTINUES, ENDS_PARENTHESES, OPENS_STATEMENT, Token
 from mlmg_lang.source import Span
 
@@ -61,8 +61,9 @@ class Open:
 
     @property
     def chooses(self) -> bool:
-        """Return whether `|` parts branches in these braces."""
-        return bool(self.head) and means_choose(self.head[0].text)
+        """Return whether `|` may part branches in these braces: where nothing takes them, nobody knows."""
+        is_choice = any(token.type == "CHOOSE" or means_choose(token.text) for token in self.head)
+        return is_choice or not opens_block(self.head)
 
     @property
     def start(self) -> int:

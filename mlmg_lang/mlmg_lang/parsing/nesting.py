@@ -153,6 +153,8 @@ class Nest(Generic[T]):
             branch.weight = weight
             branch.first = branch.last = weight.span
             return
+        if frame.opened.head is None and len(self._frames) > 1 and branch.first is None:
+            return
         message = "a weight stands at the beginning of a branch of `choose { }`"
         self.diagnostics.append(Diagnostic("MS010", message, weight.span, help="take it out"))
         branch.add((weight.span, weight.span), self._make.instead(weight))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from itertools import islice, takewhile
+from itertools import islice
 
 from mlmg_lang.diagnostics import Diagnostic
 from mlmg_lang.parsing import layout, syntax
@@ -16,6 +16,7 @@ from mlmg_lang.parsing.lookalikes import as_meant, lookalikes
 from mlmg_lang.parsing.nesting import Around, Braces, Mark, Opened, nested
 from mlmg_lang.parsing.quotes import CURLY, requoted, without_lone
 from mlmg_lang.parsing.strays import stray_signs, without_strays
+from mlmg_lang.parsing.swapped import in_order, swapped
 from mlmg_lang.parsing.tokenize import MAX_TOKENS
 from mlmg_lang.parsing.tokens import NAMES, Token
 from mlmg_lang.source import Source, Span
@@ -82,6 +83,8 @@ def read_marks(source: Source, tokens: Sequence[Token], around: Around = ()) -> 
     tokens = join_quoted(as_meant(tokens), source)
     reader.diagnostics += islice(check_tokens(tokens), MAX_MISTAKES)
     tokens = without_lone(tokens)
+    reader.diagnostics += islice(swapped(tokens), MAX_MISTAKES)
+    tokens = in_order(tokens)
     reader.diagnostics += islice(stray_signs(tokens, len(around)), MAX_MISTAKES)
     marked = mark(without_strays(tokens, len(around)), [braces.bars for braces in around])
     reader.diagnostics += marked.diagnostics
@@ -156,6 +159,10 @@ class _Reader:
         if isinstance(head, syntax.RepeatHead | syntax.ChooseHead):
             return (), head
         if isinstance(head, syntax.Broken):
+            # What stands behind `choose` has been reported; its branches are there all the same.
+            is_choice = any(token.type == "CHOOSE" for token in opened.head)
+            return ((), syntax.ChooseHead(head.span)) if is_choice else ((head,), None)
+        if isinstance(head, syntax.Let):
             return (head,), None
         self._say("MS013", "only `repeat` and `choose` are followed by `{`", opened.brace, "take the braces out")
         return (syntax.Broken(head.span) if isinstance(head, syntax.Weight) else head,), None
@@ -170,8 +177,11 @@ class _Reader:
         if mistake is None:
             return self._read(block.head)
         self.diagnostics.append(mistake.diagnostic)
+        if mistake.meant is not None:
+            return self._read(mistake.meant)
         span = Span(block.head[0].span.start, block.head[-1].span.end)
-        return syntax.Broken(span) if mistake.meant is None else self._read(mistake.meant)
+        whole = read(self._source, block.head) if block.head[0].type == "LET" else None
+        return replace(whole, mended=True) if isinstance(whole, syntax.Let) else _broken(block.head, span)
 
     def _read(self, tokens: tuple[Token, ...]) -> syntax.Line | syntax.Broken:
         """Return the node of a line, mended as far as one can tell what was meant."""
@@ -190,9 +200,12 @@ class _Reader:
             return syntax.Broken(span)
         n_before = len(self.diagnostics)
         node = self._mended(tuple(_as_names(tokens)))
-        if node is None or _is_doubtful(tokens, self.diagnostics[n_before:]):
+        told = self.diagnostics[n_before:]
+        if node is None or _is_doubtful(tokens, told):
             return _broken(tokens, span)
-        return replace(node, span=span) if len(self.diagnostics) > n_before else node
+        if isinstance(node, syntax.Let) and not all(map(_is_sure, told)):
+            return replace(node, span=span, mended=True)
+        return replace(node, span=span) if told else node
 
     def _mended(self, tokens: tuple[Token, ...]) -> syntax.Line | None:
         """Parse; where the parser is stuck, say why, and return what was meant if that can be told."""
@@ -230,8 +243,21 @@ def _is_doubtful(tokens: Sequence[Token], told: Sequence[Diagnostic]) -> bool:
     """Return whether a definition had to be mended before its `=`: then nobody knows what it defines."""
     if not told or tokens[0].type != "LET":
         return False
-    equals = next((token.span.start for token in tokens if token.type == "EQUALS"), 0)
+    head = _head_of(tokens)
+    equals = tokens[len(head)].span.start if len(head) < len(tokens) else 0
     return any(one.span is not None and one.span.start < equals and not _is_sure(one) for one in told)
+
+
+def _head_of(tokens: Sequence[Token]) -> Sequence[Token]:
+    """Return what stands before the `=` of a definition; those of defaults stand in parentheses."""
+    depth, at = 0, len(tokens)
+    for number, token in enumerate(tokens):
+        depth += (token.type == "LEFT") - (token.type == "RIGHT")
+        if token.type == "EQUALS":
+            at = number
+            if depth <= 0:
+                break
+    return tokens[:at]
 
 
 def _is_sure(one: Diagnostic) -> bool:
@@ -240,16 +266,14 @@ def _is_sure(one: Diagnostic) -> bool:
 
 def _broken(tokens: Sequence[Token], span: Span) -> syntax.Broken:
     """Return what stands for a line that cannot be read, with the names that it may have been meant to define."""
-    first = next((at for at, token in enumerate(tokens) if token.type == "LET"), None)
-    if first is None:
-        return syntax.BrokenDefinition(span, ()) if tokens[0].type == "USE" else syntax.Broken(span)
-    head = takewhile(lambda token: token.type != "EQUALS", tokens[first + 1 :])
-    names = tuple(name_from_token(token).text for token in head if token.type in NAMES)
-    return syntax.BrokenDefinition(span, names or _first_name(tokens[first + 1 :]))
-
-
-def _first_name(tokens: Iterable[Token]) -> tuple[str, ...]:
-    return tuple(islice((name_from_token(token).text for token in tokens if token.type in NAMES), 1))
+    kinds = [token.type for token in tokens]
+    if "LET" not in kinds:
+        return syntax.BrokenDefinition(span, ()) if kinds[0] == "USE" else syntax.Broken(span)
+    first = kinds.index("LET")
+    if kinds[first + 1 : first + 2] in (["EQUALS"], ["LEFT"]) and not first:
+        return syntax.BrokenDefinition(span, ())
+    names = tuple(name_from_token(token).text for token in _head_of(tokens) if token.type in NAMES)
+    return syntax.BrokenDefinition(span, names[:1] if "EQUALS" not in kinds else names)
 
 
 def _as_names(tokens: Iterable[Token]) -> Iterator[Token]:
@@ -257,7 +281,8 @@ def _as_names(tokens: Iterable[Token]) -> Iterator[Token]:
     before = ""
     for token in tokens:
         if token.type == "UNCLOSED":
-            yield replace(token, type="STRING")
+            is_printed = token.text[-1] in CURLY and len(token.text) > 2
+            yield replace(token, type="STRING", text=f'"{token.text[1:-1]}"' if is_printed else token.text)
         elif before == "USE" and token.type == "NAME" and token.text[0] in CURLY:
             yield replace(token, type="STRING", text=f'"{token.text[1:-1]}"')
         else:

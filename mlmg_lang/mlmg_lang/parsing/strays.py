@@ -34,11 +34,13 @@ class Stray:
     ----------
     at : its index. partner : that of the brace that goes with it, if there is one.
     is_told : whether what it stands in is told as a whole.
+    is_right : whether it is a brace in place of the parenthesis that was meant.
     """
 
     at: int
     partner: int | None = None
     is_told: bool = False
+    is_right: bool = False
 
 
 def without_strays(tokens: Sequence[Token], depth: int = 0) -> Sequence[Token]:
@@ -48,7 +50,7 @@ def without_strays(tokens: Sequence[Token], depth: int = 0) -> Sequence[Token]:
     """
     changed: dict[int, Token | None] = {}
     for stray in find_strays(tokens, depth):
-        changed[stray.at] = None
+        changed[stray.at] = replace(tokens[stray.at], type="RIGHT", text=")") if stray.is_right else None
         if stray.partner is not None:
             opening, closing = tokens[stray.at], tokens[stray.partner]
             is_group = _groups(tokens, stray.at)
@@ -69,9 +71,21 @@ def stray_signs(tokens: Sequence[Token], depth: int = 0) -> Iterator[Diagnostic]
         if stray.partner is not None and _groups(tokens, stray.at):
             yield _braces(sign.span, tokens[stray.partner].span, tokens[stray.at + 1 : stray.partner])
             continue
-        code = "MS013" if sign.type in ("OPEN", "CLOSE") else "MS010"
-        message = f"`{sign.text}` cannot stand in the midst of a statement"
-        yield Diagnostic(code, message, sign.span, "take it out", fixes=(Fix(sign.span, "", safe=False),))
+        yield _needless(sign) if not stray.is_right else _for_right(sign)
+
+
+def _needless(sign: Token) -> Diagnostic:
+    fix = Fix(sign.span, "", safe=False)
+    code = "MS013" if sign.type in ("OPEN", "CLOSE") else "MS010"
+    what = "a statement" if sign.type in _SIGNS else "a weight"
+    message = f"`{sign.text}` cannot stand in the midst of {what}"
+    return Diagnostic(code, message, sign.span, "take it out", fixes=(fix,))
+
+
+def _for_right(brace: Token) -> Diagnostic:
+    """Say what is wrong with `(TALK and IDLE}`."""
+    fix = Fix(brace.span, ")", safe=True)
+    return Diagnostic("MS012", "a `(` is closed by `)`, not by `}`", brace.span, "write `)`", fixes=(fix,))
 
 
 def _braces(opening: Span, closing: Span, inside: Sequence[Token]) -> Diagnostic:
@@ -87,7 +101,7 @@ def find_strays(tokens: Sequence[Token], depth: int = 0) -> list[Stray]:
     ----------
     depth : how many blocks are open before the tokens.
     """
-    signs = [at for at, token in enumerate(tokens) if token.type in _SIGNS]
+    signs = [at for at, token in enumerate(tokens) if token.type in _SIGNS or _is_odd(tokens, at)]
     found: list[Stray] = []
     partners: set[int] = set()
     in_loop_heads = frozenset(_in_loop_heads(tokens)) if signs else frozenset()
@@ -103,20 +117,86 @@ def find_strays(tokens: Sequence[Token], depth: int = 0) -> list[Stray]:
     return found
 
 
+def _is_odd(tokens: Sequence[Token], at: int) -> bool:
+    """Return whether a token that is not a sign of its own stands between the weight of a branch and its `:`."""
+    return tokens[at].type in ("RIGHT", "COMMA") and _is_in_weight(tokens, at)
+
+
+def _is_in_weight(tokens: Sequence[Token], at: int) -> bool:
+    """`1 ,: WALK`."""
+    return _before(tokens, at) == "INTEGER" and _after(tokens, at) == "COLON" and len(_line_before(tokens, at)) == 1
+
+
 def _stray(tokens: Sequence[Token], at: int, depth: int) -> Stray | None:
     """Return a sign if it is not meant; `depth`: how many blocks are open before it."""
     kind, before, after = tokens[at].type, _before(tokens, at), _after(tokens, at)
-    if before in _ENDS_STATEMENT | {"COLON"} or (after == "NEWLINE" and kind != "OPEN"):
+    if kind not in _SIGNS or _is_in_weight(tokens, at) or (kind != "OPEN" and _is_before_brace(tokens, at)):
+        return Stray(at)
+    if before in _ENDS_STATEMENT | {"COLON"}:
         return None
     if kind == "OPEN":
-        return _stray_brace(tokens, at, before, after)
+        return _stray_opening(tokens, at, before, after)
+    if kind == "CLOSE":
+        return _stray_closing(tokens, at, before, after, depth)
+    if after == "NEWLINE":
+        return None
     splits = after not in _SIGNS | OPENS_STATEMENT and _splits(tokens, at)
-    if kind in ("SEMICOLON", "BAR"):
-        is_within = kind == "SEMICOLON" and after in _WITHIN | {"OPEN"}
-        return Stray(at) if (splits or is_within) and _is_meant(tokens, at, splits) else None
-    side_by_side = before in NAMES and after in NAMES | {"LEFT"}
-    is_cut = depth == 0 and (side_by_side or after in _WITHIN | {"OPEN"}) and not _is_inside(tokens, at)
-    return Stray(at) if splits or is_cut else None
+    is_within = kind == "SEMICOLON" and after in _WITHIN
+    return Stray(at) if (splits or is_within) and _is_meant(tokens, at, splits) else None
+
+
+def _is_before_brace(tokens: Sequence[Token], at: int) -> bool:
+    """`choose | {`, `repeat 2 } {`."""
+    kinds = [token.type for token in _line_before(tokens, at)]
+    return kinds in (["CHOOSE"], ["REPEAT", "INTEGER"]) and _after(tokens, at) == "OPEN"
+
+
+def _stray_closing(tokens: Sequence[Token], at: int, before: str, after: str, depth: int) -> Stray | None:
+    """Return a `}` if it is not meant."""
+    if after == "NEWLINE":
+        return Stray(at) if depth == 0 and _goes_on_below(tokens, at) else None
+    # Where the block begins in the same line, and ends nowhere else in it, this is its end.
+    is_end = depth > 0 and _n_open_before(tokens, at) > 0 and _n_closing_behind(tokens, at) == 0
+    if _is_inside(tokens, at) and not is_end:
+        if _closing(tokens, at) is not None:
+            return Stray(at)
+        return Stray(at, is_right=True) if after in CONTINUES or depth == 0 else None
+    splits = after not in _SIGNS | OPENS_STATEMENT and _splits(tokens, at)
+    side_by_side = depth == 0 and before in NAMES and after in NAMES | {"LEFT"}
+    is_cut = after in _WITHIN and not is_end
+    return Stray(at) if splits or side_by_side or is_cut or (depth == 0 and after == "OPEN") else None
+
+
+def _goes_on_below(tokens: Sequence[Token], at: int) -> bool:
+    """Return whether the next line that says anything goes on with the statement before a sign."""
+    below = (token.type for token in tokens[at + 1 : at + _REACH] if token.type not in _BETWEEN)
+    return next(below, "NEWLINE") in CONTINUES
+
+
+def _n_open_before(tokens: Sequence[Token], at: int) -> int:
+    """Return how many braces are open before a sign that are opened in its line."""
+    depth = 0
+    for token in _whole_line_before(tokens, at):
+        depth = max(0, depth + (token.type == "OPEN") - (token.type == "CLOSE"))
+    return depth
+
+
+def _n_closing_behind(tokens: Sequence[Token], at: int) -> int:
+    """Return how many braces behind a sign, in its line, close one that is opened before it."""
+    depth = least = 0
+    for token in tokens[at + 1 : at + _REACH]:
+        if token.type == "NEWLINE":
+            break
+        depth += (token.type == "OPEN") - (token.type == "CLOSE")
+        least = min(least, depth)
+    return -least
+
+
+def _whole_line_before(tokens: Sequence[Token], at: int) -> Sequence[Token]:
+    first = at
+    while first > max(at - _REACH, 0) and tokens[first - 1].type != "NEWLINE":
+        first -= 1
+    return tokens[first:at]
 
 
 def _splits(tokens: Sequence[Token], at: int) -> bool:
@@ -126,7 +206,21 @@ def _splits(tokens: Sequence[Token], at: int) -> bool:
         return after == "UNIT"
     if before in ("FOR", "WAIT", "REPEAT"):
         return after in NUMBERS
+    if before in NAMES and after == "LEFT":
+        return _is_head(tokens, at) or _has_arguments(tokens, at + 1)
     return before in _GOES_ON and not _is_finished(tokens, at)
+
+
+def _is_head(tokens: Sequence[Token], at: int) -> bool:
+    """Return whether `let` stands before a sign, and no `=`."""
+    kinds = [token.type for token in _line_before(tokens, at)]
+    return kinds[:1] == ["LET"] and "EQUALS" not in kinds
+
+
+def _has_arguments(tokens: Sequence[Token], at: int) -> bool:
+    """Return whether there is a `,` or `=` in a parenthesis, as in none that begins a statement."""
+    closing = _closing(tokens, at)
+    return closing is not None and any(token.type in ("COMMA", "EQUALS") for token in tokens[at:closing])
 
 
 def _is_meant(tokens: Sequence[Token], at: int, splits: bool) -> bool:
@@ -134,8 +228,10 @@ def _is_meant(tokens: Sequence[Token], at: int, splits: bool) -> bool:
     before, after = _before(tokens, at), _after(tokens, at)
     if tokens[at].type == "BAR" or _is_inside(tokens, at):
         return True
-    is_cut = after == "OPEN" or (after in ("EQUALS", "COMMA") and not _is_finished(tokens, at))
-    return (splits and before not in JOINERS) or is_cut
+    if before in JOINERS:
+        is_sub = after == "NAME" and tokens[at + 1].text.lower() == "sub"
+        return splits and (is_sub or _line_before(tokens, at)[0].type == "LET")
+    return splits or (after in ("EQUALS", "COMMA") and not _is_finished(tokens, at))
 
 
 def _in_loop_heads(tokens: Sequence[Token]) -> Iterator[int]:
@@ -148,8 +244,8 @@ def _in_loop_heads(tokens: Sequence[Token]) -> Iterator[int]:
 
 
 def _closing(tokens: Sequence[Token], at: int) -> int | None:
-    """Return where the partner of a parenthesis stands, in the same line."""
-    depth = 0
+    """Return where the partner of a parenthesis stands, in the same line; of one before, where a sign stands there."""
+    depth = int(tokens[at].type != "LEFT")
     for other in range(at, min(at + _REACH, len(tokens))):
         kind = tokens[other].type
         depth += (kind == "LEFT") - (kind == "RIGHT")
@@ -171,14 +267,20 @@ def _is_finished(tokens: Sequence[Token], at: int) -> bool:
     return any(token.type in ("FOR", "ONCE", "WAIT") for token in _line_before(tokens, at))
 
 
-def _stray_brace(tokens: Sequence[Token], at: int, before: str, after: str) -> Stray | None:
+def _stray_opening(tokens: Sequence[Token], at: int, before: str, after: str) -> Stray | None:
     """Return a `{` if it is not meant."""
     head = _line_before(tokens, at)
+    if before in NUMBERS and after == "UNIT":
+        return Stray(at)
     if opens_block(head):
         return None
     closing = _partner(tokens, at)
-    if closing is not None and defines(head):
-        return None
+    if _n_open_before(tokens, at) > 0 and closing is not None and _n_closing_behind(tokens, closing) == 0:
+        closing = None  # It ends the block that is opened before.
+    if defines(head) and (closing is not None or after != "NEWLINE"):
+        return Stray(at) if closing is None and head[0].type == "LET" else None
+    if after == "NEWLINE" and _goes_on_below(tokens, at):
+        return Stray(at)
     if closing is not None:
         behind = _after(tokens, closing)
         return Stray(at, closing) if before in _GOES_ON or after in _WITHIN or behind in _WITHIN else None
@@ -188,7 +290,7 @@ def _stray_brace(tokens: Sequence[Token], at: int, before: str, after: str) -> S
 
 def _groups(tokens: Sequence[Token], at: int) -> bool:
     """Return whether a brace and its partner stand around a whole part of a statement."""
-    return _after(tokens, at) not in _WITHIN
+    return _after(tokens, at) not in _WITHIN and _before(tokens, at) not in ("FOR", "WAIT")
 
 
 def _partner(tokens: Sequence[Token], at: int) -> int | None:

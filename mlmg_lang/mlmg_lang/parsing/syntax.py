@@ -165,12 +165,16 @@ class Parameter(Node):
 
 @dataclass(frozen=True, slots=True)
 class Let(Node):
-    """A definition. `parameters` is None where there are no parentheses."""
+    """A definition. `parameters` is None where there are no parentheses.
+
+    `mended` says that its text has a mistake, which has been reported, so that it may not say what was meant.
+    """
 
     name: Name
     parameters: tuple[Parameter, ...] | None
     command: Command
     span: Span
+    mended: bool = False
 
 
 @dataclass(frozen=True, slots=True)

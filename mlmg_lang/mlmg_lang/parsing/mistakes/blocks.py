@@ -17,6 +17,8 @@ _HAVE: str = "only `repeat` and `choose` are followed by `{`"
 def other_head(head: Sequence[Token], brace: Span) -> Mistake | None:
     """`loop 3 {`, `3 times {`, `random {`, `function GREET() {`; None where nothing of the kind stands there."""
     misspelt = _misspelt(head[0]) if len(head) == 1 and head[0].type == "NAME" else None
+    if len(head) == 1 and head[0].text.lower() == "choose":
+        return _shouted(head[0])
     if misspelt is not None:
         return misspelt
     words = {word for token in head if token.type == "NAME" for word in MEANT.get(token.text.lower(), ())}
@@ -48,6 +50,13 @@ def _misspelt(word: Token) -> Mistake | None:
         advice = "did you mean `repeat`? It says how often, as in `repeat 3 { ... }`"
         return mistake("MS019", message, word.span, advice)
     return None
+
+
+def _shouted(word: Token) -> Mistake:
+    """`CHOOSE {`."""
+    message = f"`{word.text}`: the words of the language are written in lower case"
+    fix, meant = Fix(word.span, "choose", safe=True), (Token("CHOOSE", "choose", word.span),)
+    return mistake("MS011", message, word.span, "write `choose`", fix, meant=meant)
 
 
 def _instead(head: Sequence[Token], right: str, *meant: Token) -> Mistake:

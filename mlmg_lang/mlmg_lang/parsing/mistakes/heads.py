@@ -167,11 +167,29 @@ def comma_missing(stuck: Stuck) -> Mistake | None:
     token = stuck.token(0)
     if token is None or token.type not in NAMES or not {"COMMA", "EQUALS"} <= stuck.accepts:
         return None
+    needless = _needless_parameter(stuck, (stuck.at - 1, stuck.at))
+    if needless is not None:
+        word, meant = stuck.tokens[needless], replaced(stuck, needless)
+        fix = Fix(_with_space(stuck, needless), "", safe=False)
+        return mistake("MS010", f"`{word.text}` does not fit here", word.span, "take it out", fix, meant=meant)
     place = Span(stuck.tokens[stuck.at - 1].span.end, stuck.tokens[stuck.at - 1].span.end)
     meant = replaced(stuck, stuck.at, Token("COMMA", ",", place), n=0)
     message = f"`,` is missing before `{token.text}`"
     return mistake("MS010", message, token.span, "parameters are separated by `,`", Fix(place, ",", safe=True),
                    meant=meant)  # fmt: skip
+
+
+def _needless_parameter(stuck: Stuck, places: Sequence[int]) -> int | None:
+    """Return which of two names side by side is no parameter, as the definition does not use it, but the other."""
+    said = {token.text for token in stuck.tokens[stuck.at + 1 :]}
+    unused = [at for at in places if stuck.tokens[at].text not in said]
+    return unused[0] if len(unused) == 1 else None
+
+
+def _with_space(stuck: Stuck, at: int) -> Span:
+    """Return the place of a token with the space that would be left over without it."""
+    span = stuck.tokens[at].span
+    return Span(span.start, stuck.tokens[at + 1].span.start) if at + 1 < len(stuck.tokens) else span
 
 
 def not_behind_name(stuck: Stuck) -> Mistake | None:
