@@ -13,7 +13,8 @@ from mlmg_lang.chunks import Chunks, all_of
 from mlmg_lang.diagnostics import Diagnostic
 from mlmg_lang.moving import by, moved
 from mlmg_lang.parsing import syntax
-from mlmg_lang.parsing.nesting import NO_STATEMENT, SYNTAX, Make, Nest
+from mlmg_lang.parsing.layout import Close
+from mlmg_lang.parsing.nesting import NO_STATEMENT, SYNTAX, Make, Nest, Opened
 from mlmg_lang.parsing.parse import end_of
 from mlmg_lang.parsing.structure import check_blocks, nested_definition
 from mlmg_lang.parsing.tokens import Token
@@ -185,14 +186,20 @@ def _end(lines: Sequence[Piece]) -> int:
 
 
 def _definitions(lines: Sequence[Piece]) -> Iterator[tuple[syntax.Let | syntax.Use, bool]]:
-    nest = Nest(SYNTAX)
+    """Yield definitions, each with whether it stands in a block that has an end: else that was to be before it."""
+    opened: list[Opened] = []
+    found: list[tuple[syntax.Let | syntax.Use, tuple[Opened, ...]]] = []
     for plain, line in _stretches(lines):
-        marks = (*all_of(plain, "items"), *(() if line is None else line.marks))
-        for mark in marks:
-            if isinstance(mark, NO_STATEMENT):
-                nest.take(mark)
+        for mark in (*all_of(plain, "items"), *(() if line is None else line.marks)):
+            if isinstance(mark, Opened):
+                opened.append(mark)
+            elif isinstance(mark, Close):
+                opened.pop()
             elif isinstance(mark, syntax.Let | syntax.Use):
-                yield mark, nest.in_block
+                found.append((mark, tuple(opened)))
+    endless = set(map(id, opened))
+    for item, around in found:
+        yield item, any(one.head is not None and id(one) not in endless for one in around)
 
 
 def _readdressed(lines: Iterable[Piece], address: int) -> Iterator[Piece]:

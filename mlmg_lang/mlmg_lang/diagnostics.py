@@ -101,6 +101,19 @@ CODES: Final[Mapping[str, Rule]] = MappingProxyType(_table())
 """All codes, with their severity and what they mean in a few words. A code never changes its meaning."""
 
 
+class Brace(StrEnum):
+    """What a diagnostic says of the braces of a script, for what else is wrong with them: see `parsing.unbalanced`."""
+
+    UNCLOSED = "a `{` to which there is no `}`"
+    UNOPENED = "a `}` to which there is no `{`"
+    NEEDLESS = "a `{` that is too much"
+    MISSING = "a `{` that is missing"
+    OUTSIDE = "what stands in braces alone"
+    PARENTHESIS = "a `)` that may stand in place of a `}`"
+    LOOP = "a loop of another language"
+    OPEN_PARENTHESIS = "a `(` in place of whose `)` there may be a `}`"
+
+
 @dataclass(frozen=True, slots=True)
 class Fix:
     """An edit that would mend it.
@@ -158,6 +171,7 @@ class Diagnostic:
     help : what to do about it.
     fixes : edits that would do it, the likeliest first.
     labels : other places that have to do with it.
+    brace : what it says of braces.
     """
 
     code: str
@@ -167,6 +181,7 @@ class Diagnostic:
     notes: tuple[Note, ...] = ()
     fixes: tuple[Fix, ...] = ()
     labels: tuple[Label, ...] = ()
+    brace: Brace | None = None
 
     @property
     def severity(self) -> Severity:

@@ -36,7 +36,7 @@ def without_following(
             or one.span is None
             or (
                 not any(_touch(one.span, place, 0 if one.fixes else 2) for place in places)
-                and (not any(_is_within(one.span, line) for line in mended) or _is_slip(one, one.span, unsure))
+                and (not any(_is_about(one, line) for line in mended) or _is_slip(one, one.span, unsure))
             )
         ):
             yield one
@@ -54,6 +54,12 @@ def _lines(items: Iterable[syntax.Item]) -> Iterator[Span]:
                 yield from (span for branch in branches for span in _lines(branch.body))
             case _:
                 yield item.span
+
+
+def _is_about(one: Diagnostic, line: Span) -> bool:
+    """Return whether something stands in a line, or in a definition that this uses."""
+    places = (one.span, *(note.span for note in one.notes))
+    return any(span is not None and _is_within(span, line) for span in places)
 
 
 def _is_within(span: Span, line: Span) -> bool:

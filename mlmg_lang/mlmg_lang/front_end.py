@@ -14,16 +14,19 @@ from mlmg_lang.catalog import Catalog
 from mlmg_lang.chunks import Chunks, all_of
 from mlmg_lang.definitions.expand import MAX_ALL_NODES, Expander, unused
 from mlmg_lang.definitions.gather import Files, Gathered, NoFiles, gather, gather_with
+from mlmg_lang.definitions.misnamed import Naming, told_once
 from mlmg_lang.diagnostics import Diagnostic
 from mlmg_lang.following import without_following
 from mlmg_lang.parsing.case import guess_case
 from mlmg_lang.parsing.lookalikes import opens_or_closes
+from mlmg_lang.parsing.nesting import Mark
 from mlmg_lang.parsing.parse import MAX_MISTAKES, read_marks
 from mlmg_lang.parsing.quotes import requoted
 from mlmg_lang.parsing.structure import check_definition, check_structure, misplaced
 from mlmg_lang.parsing.syntax import Item, Let, Script, Use
 from mlmg_lang.parsing.tokenize import MAX_TOKENS, tokenize
 from mlmg_lang.parsing.tokens import Token
+from mlmg_lang.parsing.unbalanced import balanced
 from mlmg_lang.pieces import Piece, lines_of
 from mlmg_lang.places import Places
 from mlmg_lang.source import Source, Span
@@ -99,7 +102,7 @@ def _resolved(names: Names, catalog: Catalog, question: Question, found: Found, 
     resolution = resolve(made.plan, names, catalog, made.source, question.start, question.state)
     hints = (*left_at_once(resolution, names), *unusual(resolution, names, catalog))
     made = replace(made, resolution=resolution, start=resolution.plan.start)
-    return _told(question, replace(found, played=resolution.diagnostics, hints=hints), made)
+    return _told(question, replace(found, played=_soundly(resolution.diagnostics, made), hints=hints), made)
 
 
 def _names(catalog: Catalog) -> Names:
@@ -225,11 +228,21 @@ def _untold(lines: Chunks[Piece]) -> tuple[Diagnostic, ...]:
 def _defined(made: InPieces) -> Sequence[Diagnostic]:
     """Return what is wrong with the definitions, but not what may follow from what is wrong with their text."""
     defining = (made.lines[at] for at in made.lines.where("defining")) if made.defined else ()
-    misread = [line for line in defining if line.misread]
-    if not misread:
-        return made.defined
+    return _not_following(made.defined, [line for line in defining if line.misread])
+
+
+def _not_following(told: tuple[Diagnostic, ...], misread: list[Piece]) -> tuple[Diagnostic, ...]:
+    """Return what is told, but not what may follow from what is wrong with the text of some lines."""
+    if not misread or not told:
+        return told
     misread.sort(key=attrgetter("address"))
-    return tuple(one for one in made.defined if not _follows(one, misread))
+    return tuple(one for one in told if not _follows(one, misread))
+
+
+def _soundly(played: tuple[Diagnostic, ...], made: InPieces) -> tuple[Diagnostic, ...]:
+    """Return what is wrong with what a script plays, but not what may follow from what is wrong with its text."""
+    misread = [made.lines[at] for at in made.lines.where("misread")] if played else []
+    return _not_following(played, misread)
 
 
 def _follows(one: Diagnostic, misread: Sequence[Piece]) -> bool:
@@ -240,14 +253,31 @@ def _follows(one: Diagnostic, misread: Sequence[Piece]) -> bool:
     line = misread[max(at, 0)]
     if not line.address <= one.span.start < line.address + line.size:
         return False
-    return not any(without_following((one,), line.misread, line.defining))
+    return not any(without_following((one,), line.misread, line.items))
 
 
 def _told(question: Question, found: Found, made: InPieces) -> Analysis:
     """Return the analysis, with what is told of what has been found."""
     complete = question.catalog is not None and not found.wrong
-    told = _sorted(suppress(made.now(found.told), _speaking(made), made.source, complete))
+    once = balanced(made.now(tuple(told_once(found.told, _naming(made)))), _braces(made), made.source)
+    told = _sorted(suppress(tuple(once), _speaking(made), made.source, complete))
     return Analysis(told, question, found, made)
+
+
+def _naming(made: InPieces) -> Naming:
+    """Return what has to be known to tell whose name is wrong."""
+    known = made.gathered.definitions
+    return Naming(made.addressed, made.places, known.lets.values(), known.unread, lambda name: _is_used(made, name))
+
+
+def _is_used(made: InPieces, name: str) -> bool:
+    return any(True for _ in made.lines.where_among("names", frozenset({name})))
+
+
+def _braces(made: InPieces) -> Iterator[Mark]:
+    """Yield what stands in and around braces that have their partners in other lines, where these are now."""
+    for at in made.lines.where("marks"):
+        yield from made.now(made.lines[at].marks)
 
 
 def _speaking(made: InPieces) -> tuple[Token, ...]:
@@ -386,5 +416,5 @@ def _replayed(
     player = Player(made.places, keys, library, made.addressed, start, moves)
     played = player.replay(known, runs(pieces.numbers if start == before.start else (0, *pieces.numbers)))
     told, hints = (tuple(played.all(name)) for name in ("told", "hints"))
-    found = replace(found, played=(*wrong, *told), hints=hints)
+    found = replace(found, played=_soundly((*wrong, *told), made), hints=hints)
     return _told(question, found, replace(made, start=start, played=played, keys=keys))

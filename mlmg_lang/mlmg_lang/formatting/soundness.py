@@ -42,7 +42,7 @@ class Soundness:
         """Return whether a line is a statement without a mistake."""
         if self._odd and any(token.span in self._odd for token in tokens):
             return False
-        if self._signs and self._has_sign(Span(tokens[0].span.start, tokens[-1].span.start)):
+        if self._signs and self._has_sign(Span(tokens[0].span.start, tokens[-1].span.end)):
             return False
         kinds = tuple([token.type for token in tokens])
         sound = self._known.get(kinds)

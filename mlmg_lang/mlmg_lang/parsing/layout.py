@@ -11,9 +11,9 @@ from dataclasses import dataclass, field
 from itertools import accumulate
 from typing import Final, TypeAlias
 
-from mlmg_lang.diagnostics import Diagnostic, Fix
+from mlmg_lang.diagnostics import Brace, Diagnostic, Fix
 from mlmg_lang.parsing.foreign import means_choose, opens_block
-from mlmg_lang.parsing.tokens import CONTINUES, ENDS_PARENTHESES, OPENS_STATEMENT, Token
+from mlmg_lang.parsing.tokens import CONTINUES, ENDS_PARENTHESES, NUMBERS, OPENS_STATEMENT, Token
 from mlmg_lang.source import Span
 
 MAX_DEPTH = 64
@@ -128,7 +128,8 @@ def mark(tokens: Sequence[Token], around: Sequence[bool] = ()) -> Marked:
 
 def unclosed(brace: Span) -> Diagnostic:
     """Return what to say of a brace that opens a block to which there is no end."""
-    return Diagnostic("MS013", "this `{` is never closed", brace, help="write `}` where its statements end")
+    advice = "write `}` where its statements end"
+    return Diagnostic("MS013", "this `{` is never closed", brace, help=advice, brace=Brace.UNCLOSED)
 
 
 def _nested(marks: Iterable[Mark], end: int) -> tuple[tuple[Line | Block, ...], list[Diagnostic]]:
@@ -214,8 +215,16 @@ class _Cutter:
             self._marks.append(Bar(token.span))
         else:
             self._line.append(token)
-            if token.type == "COLON" and [part.type for part in self._line] == ["INTEGER", "COLON"]:
+            if token.type == "COLON" and self._is_weight():
                 self._end_line()
+
+    def _is_weight(self) -> bool:
+        """Return whether the line is the weight of a branch, or meant for one with a word or sign too many."""
+        first, *rest, _ = self._line if len(self._line) > 1 else (self._line[0], self._line[0])
+        if first.type == "INTEGER" and not rest:
+            return True
+        in_choice = bool(self._chooses) and self._chooses[-1]
+        return in_choice and len(rest) == 1 and not {first.type, rest[0].type}.isdisjoint(NUMBERS)
 
     def finish(self) -> Marked:
         """End the last line, and return all."""
@@ -256,7 +265,9 @@ class _Cutter:
             return
         self._end_line()
         if not self._chooses:
-            self._say("this `}` closes nothing", token.span, "take it out", Fix(token.span, "", safe=False))
+            message, fix = "this `}` closes nothing", Fix(token.span, "", safe=False)
+            told = Diagnostic("MS013", message, token.span, "take it out", fixes=(fix,), brace=Brace.UNOPENED)
+            self._diagnostics.append(told)
         else:
             self._chooses.pop()
             self._marks.append(Close(token.span))

@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Final, Generic, TypeAlias, TypeVar
 
-from mlmg_lang.diagnostics import Diagnostic
+from mlmg_lang.diagnostics import Brace, Diagnostic
 from mlmg_lang.parsing import syntax
 from mlmg_lang.parsing.layout import Bar, Close, unclosed
 from mlmg_lang.source import Span
@@ -118,11 +118,6 @@ class Nest(Generic[T]):
         """Return what has no block around it, or stands in one that nothing takes."""
         return tuple(self._frames[0].branches[0].found)
 
-    @property
-    def in_block(self) -> bool:
-        """Return whether what comes next stands in a block."""
-        return any(frame.opened.head is not None for frame in self._frames)
-
     def add(self, items: Sequence[syntax.Item], found: Iterable[T]) -> None:
         """Add what has been made of some statements, at least one."""
         self._frames[-1].branches[-1].add((items[0].span, items[-1].span), found)
@@ -156,7 +151,7 @@ class Nest(Generic[T]):
         if frame.opened.head is None and len(self._frames) > 1 and branch.first is None:
             return
         message = "a weight stands at the beginning of a branch of `choose { }`"
-        self.diagnostics.append(Diagnostic("MS010", message, weight.span, help="take it out"))
+        self.diagnostics.append(Diagnostic("MS010", message, weight.span, help="take it out", brace=Brace.OUTSIDE))
         branch.add((weight.span, weight.span), self._make.instead(weight))
 
     def _end(self, end: int) -> None:

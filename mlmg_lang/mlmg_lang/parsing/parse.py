@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import islice
 
-from mlmg_lang.diagnostics import Diagnostic
+from mlmg_lang.diagnostics import Brace, Diagnostic
 from mlmg_lang.parsing import layout, syntax
 from mlmg_lang.parsing.build_syntax import name_from_token
 from mlmg_lang.parsing.layout import MAX_DEPTH, mark
@@ -127,17 +127,17 @@ class _Reader:
                 case _:
                     yield one
 
-    def _statement(self, tokens: tuple[Token, ...]) -> syntax.Item:
-        """Return the statement of a line that has no braces after it."""
+    def _statement(self, tokens: tuple[Token, ...]) -> syntax.Item | syntax.Weight:
+        """Return the statement, or the weight, of a line that has no braces after it."""
+        n_before = len(self.diagnostics)
         node = self._read(tokens)
         if isinstance(node, syntax.RepeatHead | syntax.ChooseHead):
+            if len(self.diagnostics) > n_before:
+                return syntax.Broken(node.span)
             braces = "{ ... }" if isinstance(node, syntax.RepeatHead) else "{ ... | ... }"
             word = tokens[0].text
-            self._say("MS013", f"`{word}` needs its statements in `{{ }}`", node.span, f"write `{braces}` after it")
-            return syntax.Broken(node.span)
-        if isinstance(node, syntax.Weight):
-            message = "a weight stands at the beginning of a branch of `choose { }`"
-            self._say("MS010", message, node.span, "take it out")
+            message = f"`{word}` needs its statements in `{{ }}`"
+            self._say("MS013", message, node.span, f"write `{braces}` after it", Brace.MISSING)
             return syntax.Broken(node.span)
         return node
 
@@ -153,9 +153,13 @@ class _Reader:
     ) -> tuple[tuple[syntax.Item, ...], syntax.RepeatHead | syntax.ChooseHead | None]:
         """Return what takes a brace; if nothing does, the statement that stands before it, if there is one."""
         if not opened.head:
-            self._say("MS013", "this `{` has no `repeat` or `choose` before it", opened.brace, "take the braces out")
+            message = "this `{` has no `repeat` or `choose` before it"
+            self._say("MS013", message, opened.brace, "take the braces out", Brace.NEEDLESS)
             return (), None
+        n_before = len(self.diagnostics)
         head = self._head(opened)
+        told = self.diagnostics[n_before:]
+        self.diagnostics[n_before:] = [replace(one, brace=None) if one.brace is Brace.MISSING else one for one in told]
         if isinstance(head, syntax.RepeatHead | syntax.ChooseHead):
             return (), head
         if isinstance(head, syntax.Broken):
@@ -164,7 +168,8 @@ class _Reader:
             return ((), syntax.ChooseHead(head.span)) if is_choice else ((head,), None)
         if isinstance(head, syntax.Let):
             return (head,), None
-        self._say("MS013", "only `repeat` and `choose` are followed by `{`", opened.brace, "take the braces out")
+        message = "only `repeat` and `choose` are followed by `{`"
+        self._say("MS013", message, opened.brace, "take the braces out", Brace.NEEDLESS)
         return (syntax.Broken(head.span) if isinstance(head, syntax.Weight) else head,), None
 
     def _head(self, block: layout.Open) -> syntax.Line | syntax.Broken:
@@ -209,6 +214,7 @@ class _Reader:
 
     def _mended(self, tokens: tuple[Token, ...]) -> syntax.Line | None:
         """Parse; where the parser is stuck, say why, and return what was meant if that can be told."""
+        tokens = self._with_use(tokens)
         outcome = read(self._source, tokens, self._in_choose)
         if not isinstance(outcome, Stuck):
             return outcome
@@ -223,13 +229,25 @@ class _Reader:
         self.diagnostics += mended.diagnostics
         return mended.line
 
+    def _with_use(self, tokens: tuple[Token, ...]) -> tuple[Token, ...]:
+        """Return tokens with `use` where a word beside the path of a script is meant for it, and say so."""
+        if len(tokens) != 2 or not any(token.type == "STRING" and token.text.endswith('.ms"') for token in tokens):
+            return tokens
+        from mlmg_lang.parsing.mistakes.heads import use_meant
+
+        mistake = use_meant(tokens)
+        if mistake is None or mistake.meant is None:
+            return tokens
+        self.diagnostics.append(mistake.diagnostic)
+        return mistake.meant
+
     def _give_up(self, span: Span) -> None:
         if self.diagnostics[-1].code != "MS006":
             message = f"more than {MAX_MISTAKES} mistakes; what comes after this is not read"
             self._say("MS006", message, span, "is this file a script?")
 
-    def _say(self, code: str, message: str, span: Span, help_: str) -> None:
-        self.diagnostics.append(Diagnostic(code, message, span, help=help_))
+    def _say(self, code: str, message: str, span: Span, help_: str, brace: Brace | None = None) -> None:
+        self.diagnostics.append(Diagnostic(code, message, span, help=help_, brace=brace))
 
 
 def _weight(tokens: Sequence[Token]) -> syntax.Weight | None:

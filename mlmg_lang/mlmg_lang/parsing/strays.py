@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from itertools import accumulate
 from typing import Final
 
 from mlmg_lang.diagnostics import Diagnostic, Fix
@@ -77,8 +78,7 @@ def stray_signs(tokens: Sequence[Token], depth: int = 0) -> Iterator[Diagnostic]
 def _needless(sign: Token) -> Diagnostic:
     fix = Fix(sign.span, "", safe=False)
     code = "MS013" if sign.type in ("OPEN", "CLOSE") else "MS010"
-    what = "a statement" if sign.type in _SIGNS else "a weight"
-    message = f"`{sign.text}` cannot stand in the midst of {what}"
+    message = f"`{sign.text}` cannot stand in the midst of a statement"
     return Diagnostic(code, message, sign.span, "take it out", fixes=(fix,))
 
 
@@ -101,7 +101,7 @@ def find_strays(tokens: Sequence[Token], depth: int = 0) -> list[Stray]:
     ----------
     depth : how many blocks are open before the tokens.
     """
-    signs = [at for at, token in enumerate(tokens) if token.type in _SIGNS or _is_odd(tokens, at)]
+    signs = [at for at, token in enumerate(tokens) if token.type in _SIGNS]
     found: list[Stray] = []
     partners: set[int] = set()
     in_loop_heads = frozenset(_in_loop_heads(tokens)) if signs else frozenset()
@@ -117,20 +117,10 @@ def find_strays(tokens: Sequence[Token], depth: int = 0) -> list[Stray]:
     return found
 
 
-def _is_odd(tokens: Sequence[Token], at: int) -> bool:
-    """Return whether a token that is not a sign of its own stands between the weight of a branch and its `:`."""
-    return tokens[at].type in ("RIGHT", "COMMA") and _is_in_weight(tokens, at)
-
-
-def _is_in_weight(tokens: Sequence[Token], at: int) -> bool:
-    """`1 ,: WALK`."""
-    return _before(tokens, at) == "INTEGER" and _after(tokens, at) == "COLON" and len(_line_before(tokens, at)) == 1
-
-
 def _stray(tokens: Sequence[Token], at: int, depth: int) -> Stray | None:
     """Return a sign if it is not meant; `depth`: how many blocks are open before it."""
     kind, before, after = tokens[at].type, _before(tokens, at), _after(tokens, at)
-    if kind not in _SIGNS or _is_in_weight(tokens, at) or (kind != "OPEN" and _is_before_brace(tokens, at)):
+    if kind != "OPEN" and _is_before_brace(tokens, at):
         return Stray(at)
     if before in _ENDS_STATEMENT | {"COLON"}:
         return None
@@ -153,11 +143,12 @@ def _is_before_brace(tokens: Sequence[Token], at: int) -> bool:
 
 def _stray_closing(tokens: Sequence[Token], at: int, before: str, after: str, depth: int) -> Stray | None:
     """Return a `}` if it is not meant."""
-    if after == "NEWLINE":
+    is_for_right = depth == 0 and before in NAMES | {"RIGHT"} and _is_inside(tokens, at)
+    if after == "NEWLINE" and not is_for_right:
         return Stray(at) if depth == 0 and _goes_on_below(tokens, at) else None
     # Where the block begins in the same line, and ends nowhere else in it, this is its end.
     is_end = depth > 0 and _n_open_before(tokens, at) > 0 and _n_closing_behind(tokens, at) == 0
-    if _is_inside(tokens, at) and not is_end:
+    if _is_inside(tokens, at) and not is_end and before in NAMES | {"RIGHT"}:
         if _closing(tokens, at) is not None:
             return Stray(at)
         return Stray(at, is_right=True) if after in CONTINUES or depth == 0 else None
@@ -218,9 +209,11 @@ def _is_head(tokens: Sequence[Token], at: int) -> bool:
 
 
 def _has_arguments(tokens: Sequence[Token], at: int) -> bool:
-    """Return whether there is a `,` or `=` in a parenthesis, as in none that begins a statement."""
+    """Return whether there is a `,` or `=` in a parenthesis itself, as in none that begins a statement."""
     closing = _closing(tokens, at)
-    return closing is not None and any(token.type in ("COMMA", "EQUALS") for token in tokens[at:closing])
+    kinds = [token.type for token in tokens[at : closing or at]]
+    depths = accumulate((kind == "LEFT") - (kind == "RIGHT") for kind in kinds)
+    return any(kind in ("COMMA", "EQUALS") and depth == 1 for kind, depth in zip(kinds, depths, strict=True))
 
 
 def _is_meant(tokens: Sequence[Token], at: int, splits: bool) -> bool:
@@ -270,7 +263,8 @@ def _is_finished(tokens: Sequence[Token], at: int) -> bool:
 def _stray_opening(tokens: Sequence[Token], at: int, before: str, after: str) -> Stray | None:
     """Return a `{` if it is not meant."""
     head = _line_before(tokens, at)
-    if before in NUMBERS and after == "UNIT":
+    is_split = before in NUMBERS and after == "UNIT" and "REPEAT" not in [token.type for token in head]
+    if is_split:
         return Stray(at)
     if opens_block(head):
         return None

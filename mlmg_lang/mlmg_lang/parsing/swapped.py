@@ -1,7 +1,7 @@
 """Signs that have changed places with what stands beside them -> the tokens in the order that was meant.
 
-`;`, `|` and braces part statements. In the wrong place they would make two mistakes: one where they stand, and one where
-they are missing.
+`;`, `|` and braces part statements. In the wrong place they would make two mistakes: one where they stand, and one
+where they are missing.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ _SIGNS: Final = frozenset({"SEMICOLON", "BAR", "OPEN", "CLOSE"})
 _BEGINS: Final = NAMES | OPENS_STATEMENT | NUMBERS | {"LEFT", "NOT"}
 """What a statement, or the weight before it, begins with."""
 _REACH: Final = 60
-"""So many tokens before a sign are looked at."""
+"""So many tokens before and behind a sign are looked at."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -118,12 +118,16 @@ _RULES: Final[tuple[Callable[[Sequence[Token], int], Swap | None], ...]] = (
 
 
 def _opens_here(tokens: Sequence[Token], at: int) -> bool:
-    """Return whether a brace in the same line is open before a sign."""
+    """Return whether a brace in the same line is open before a sign, to which there is no other end in that line."""
     depth = 0
     for other in range(at - 1, max(at - _REACH, 0) - 1, -1):
         if tokens[other].type == "NEWLINE":
             break
         depth += (tokens[other].type == "OPEN") - (tokens[other].type == "CLOSE")
+    for token in tokens[at + 1 : at + _REACH]:
+        if token.type == "NEWLINE":
+            break
+        depth += (token.type == "OPEN") - (token.type == "CLOSE")
     return depth > 0
 
 

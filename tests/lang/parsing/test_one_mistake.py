@@ -28,7 +28,7 @@ from mlmg_lang.source import Source
 ROOT = Path(__file__).parents[3]
 FENCE = re.compile(r"^```motion-script(.*)\n((?:.*\n)*?)```", re.MULTILINE)
 N_TRIED = 2_000
-MOST = 0.02
+MOST = 0.005
 """The share of edits that may be told of more than one error."""
 
 INSERTED = (

@@ -86,6 +86,7 @@ _RULES: Final[tuple[Callable[[Stuck], Mistake | None], ...]] = (
     durations.for_too_much,
     durations.number_in_words,
     durations.unit_missing,
+    signs.or_for_bar,
     durations.for_not_last,
     durations.for_and_once,
     motions.not_after_graph,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from mlmg_lang.diagnostics import Fix
+from mlmg_lang.diagnostics import Brace, Fix
 from mlmg_lang.parsing.foreign import MEANT, NUMBERS
 from mlmg_lang.parsing.mistakes.mistake import Mistake, across, mistake
 from mlmg_lang.parsing.tokens import NAMES, Token
@@ -17,15 +17,14 @@ _HAVE: str = "only `repeat` and `choose` are followed by `{`"
 def other_head(head: Sequence[Token], brace: Span) -> Mistake | None:
     """`loop 3 {`, `3 times {`, `random {`, `function GREET() {`; None where nothing of the kind stands there."""
     misspelt = _misspelt(head[0]) if len(head) == 1 and head[0].type == "NAME" else None
-    if len(head) == 1 and head[0].text.lower() == "choose":
-        return _shouted(head[0])
     if misspelt is not None:
         return misspelt
     words = {word for token in head if token.type == "NAME" for word in MEANT.get(token.text.lower(), ())}
     if head[0].type == "LET" or "let" in words:
         name = next((token.text for token in head[1:] if token.type in NAMES), "NAME")
         advice = f"write `let {name} = ...`, for each command one"
-        return mistake("MS013", "a definition stands for one command, without braces", brace, advice)
+        message = "a definition stands for one command, without braces"
+        return mistake("MS013", message, brace, advice, brace=Brace.NEEDLESS)
     if "choose" in words:
         return _instead(head, "choose", Token("CHOOSE", "choose", across(head[0], head[-1])))
     counts = [token.text for token in head if token.type == "INTEGER"]
@@ -35,13 +34,16 @@ def other_head(head: Sequence[Token], brace: Span) -> Mistake | None:
     if "repeat" not in words and head[0].type != "FOR" and (count is None or head[0].type != "INTEGER"):
         return None
     if count is None or not count.isdigit():
-        return mistake("MS013", _HAVE, across(head[0], head[-1]), "write how often, as in `repeat 3 { ... }`")
+        advice = "write how often, as in `repeat 3 { ... }`"
+        return mistake("MS013", _HAVE, across(head[0], head[-1]), advice, brace=Brace.LOOP)
     span = across(head[0], head[-1])
     return _instead(head, f"repeat {count}", Token("REPEAT", "repeat", span), Token("INTEGER", count, span))
 
 
 def _misspelt(word: Token) -> Mistake | None:
-    """`chose {`, `repaet {`."""
+    """`chose {`, `CHOOSE {`, `repaet {`."""
+    if word.text.lower() == "choose":
+        return _shouted(word)
     message = f"`{word.text}` is not a word of the language"
     if is_slip_of(word.text, "choose"):
         fix, meant = Fix(word.span, "choose", safe=False), (Token("CHOOSE", "choose", word.span),)
@@ -61,4 +63,6 @@ def _shouted(word: Token) -> Mistake:
 
 def _instead(head: Sequence[Token], right: str, *meant: Token) -> Mistake:
     span = across(head[0], head[-1])
-    return mistake("MS013", _HAVE, span, f"write `{right} {{ ... }}`", Fix(span, right, safe=False), meant=meant)
+    return mistake(
+        "MS013", _HAVE, span, f"write `{right} {{ ... }}`", Fix(span, right, safe=False), meant=meant, brace=Brace.LOOP
+    )

@@ -48,6 +48,7 @@ def _odd_beginning(stuck: Stuck, sign: Token, after: Token) -> Mistake | None:
     span = across(sign, after)
     if sign.text in ("-", "+"):
         what = "how often something is repeated" if stuck.tokens[0].type == "REPEAT" else "a duration"
+        what = "the weight of a branch" if stuck.tokens[-1].type == "COLON" else what
         message, right = f"{what} {'cannot be negative' if sign.text == '-' else 'has no sign'}", after.text
     elif after.type == "INTEGER":
         message, right = f"a number begins with a digit, not with `{sign.text}`", f"0.{after.text}"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from fractions import Fraction
 
 from mlmg_lang.diagnostics import Fix
@@ -34,6 +35,28 @@ def path_missing(stuck: Stuck) -> Mistake | None:
     quoted = f'"{name.text}.ms"'
     message = "the file behind `use` stands in double quotes"
     return mistake("MS010", message, name.span, f"write `use {quoted}`", Fix(name.span, quoted, safe=False))
+
+
+def use_meant(tokens: Sequence[Token]) -> Mistake | None:
+    """`USE "gestures.ms"`, `ues "gestures.ms"`, `"gestures.ms" use`."""
+    kinds = [token.type for token in tokens]
+    path = next((token for token in tokens if token.type == "STRING" and token.text.endswith('.ms"')), None)
+    if path is None or kinds not in (["NAME", "STRING"], ["STRING", "USE"]):
+        return None
+    word = tokens[kinds.index("STRING") - 1]
+    meant = (Token("USE", "use", tokens[0].span), replace(path, span=tokens[1].span))
+    if word.type == "USE":
+        right = f"use {path.text}"
+        fix = Fix(across(*tokens), right, safe=True)
+        return mistake("MS010", "`use` stands before its file", fix.span, f"write `{right}`", fix, meant=meant)
+    is_shouted = word.text.lower() == "use"
+    if not is_shouted and not is_slip_of(word.text, "use") and not other_word(word.text, "use"):
+        return None
+    code, what = "MS019", f"`{word.text}` is not a word of the language"
+    if is_shouted:
+        code, what = "MS011", f"`{word.text}`: the words of the language are written in lower case"
+    fix = Fix(word.span, "use", safe=is_shouted)
+    return mistake(code, what, word.span, "write `use`", fix, meant=meant)
 
 
 def definition(stuck: Stuck) -> Mistake | None:

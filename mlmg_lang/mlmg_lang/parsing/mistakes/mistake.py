@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Final
 
-from mlmg_lang.diagnostics import Diagnostic, Fix
+from mlmg_lang.diagnostics import Brace, Diagnostic, Fix
 from mlmg_lang.parsing.line_parser import Stuck, read
 from mlmg_lang.parsing.tokens import Token
 from mlmg_lang.source import Span
@@ -28,9 +28,10 @@ def mistake(
     advice: str | None = None,
     *fixes: Fix,
     meant: tuple[Token, ...] | None = None,
+    brace: Brace | None = None,
 ) -> Mistake:
     """Return a mistake; no tokens at all cannot have been meant."""
-    return Mistake(Diagnostic(code, message, span, help=advice, fixes=fixes), meant or None)
+    return Mistake(Diagnostic(code, message, span, help=advice, fixes=fixes, brace=brace), meant or None)
 
 
 def gets_further(stuck: Stuck, meant: Sequence[Token]) -> bool:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Final
 
-from mlmg_lang.diagnostics import Fix
+from mlmg_lang.diagnostics import Brace, Fix
 from mlmg_lang.parsing.line_parser import Stuck
 from mlmg_lang.parsing.mistakes.mistake import Mistake, across, found, mistake, n_unread, replaced
 from mlmg_lang.parsing.tokens import CONTINUES, JOINERS, NAMES, NUMBERS, Token
@@ -80,7 +80,8 @@ def parenthesis(stuck: Stuck) -> Mistake | None:
     token = stuck.token(0)
     if token is not None and token.type == "RIGHT" and not _open(stuck.tokens[: stuck.at]):
         return mistake("MS012", "this `)` closes nothing", token.span, "take it out, or write its `(`",
-                       Fix(token.span, "", safe=False), meant=replaced(stuck, stuck.at))  # fmt: skip
+                       Fix(token.span, "", safe=False), meant=replaced(stuck, stuck.at),
+                       brace=Brace.PARENTHESIS)  # fmt: skip
     opened = _open(stuck.tokens)
     if token is not None or not opened or "RIGHT" not in stuck.accepts:
         return None
@@ -88,7 +89,8 @@ def parenthesis(stuck: Stuck) -> Mistake | None:
     fix = Fix(place, ")", safe=False)
     last = next(token for token in reversed(stuck.tokens) if token.span.end <= place.start)
     advice = "write `)` where it ends" if place == stuck.span else f"write `)` behind `{last.text}`"
-    return mistake("MS012", "this `(` is never closed", opened[-1].span, advice, fix, meant=meant)
+    return mistake("MS012", "this `(` is never closed", opened[-1].span, advice, fix, meant=meant,
+                   brace=Brace.OPEN_PARENTHESIS)  # fmt: skip
 
 
 def _closed(stuck: Stuck, opening: Token) -> tuple[Span, tuple[Token, ...]]:

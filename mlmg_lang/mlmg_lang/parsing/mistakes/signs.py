@@ -7,10 +7,11 @@ from dataclasses import replace
 from types import MappingProxyType
 from typing import Final
 
-from mlmg_lang.diagnostics import Fix
+from mlmg_lang.diagnostics import Brace, Fix
 from mlmg_lang.parsing.line_parser import Stuck
 from mlmg_lang.parsing.mistakes.mistake import Mistake, across, mistake, replaced
 from mlmg_lang.parsing.tokens import NAMES, NUMBERS, Token
+from mlmg_lang.source import Span
 
 _MEANT: Final[Mapping[str, tuple[str, str]]] = MappingProxyType(
     {
@@ -61,6 +62,8 @@ def stray_character(stuck: Stuck) -> Mistake | None:
     token = stuck.token(0)
     if token is None or token.type != "UNKNOWN":
         return None
+    if token.text == "[" and (closing := _square(stuck)) is not None:
+        return _in_square(stuck, closing)
     shown = f"`{token.text}`" if token.text.isprintable() else f"the character U+{ord(token.text[0]):04X}"
     message = f"{shown} means nothing in Motion Script"
     if token.text in _MEANT:
@@ -74,6 +77,28 @@ def stray_character(stuck: Stuck) -> Mistake | None:
         or _part_of_name(stuck, message, token)
         or mistake("MS003", message, token.span, advice)
     )
+
+
+def _square(stuck: Stuck) -> int | None:
+    """Return where the partner of `[` stands."""
+    depth = 0
+    for at in range(stuck.at, len(stuck.tokens)):
+        depth += (stuck.tokens[at].text == "[") - (stuck.tokens[at].text == "]")
+        if not depth:
+            return at
+    return None
+
+
+def _in_square(stuck: Stuck, closing: int) -> Mistake:
+    """`EXPLAIN[WALK]`."""
+    first, last = stuck.tokens[stuck.at], stuck.tokens[closing]
+    right = f"({stuck.source.slice(Span(first.span.end, last.span.start))})"
+    left = replace(first, type="LEFT", text="(")
+    inside = stuck.tokens[stuck.at + 1 : closing]
+    meant = replaced(stuck, stuck.at, left, *inside, replace(last, type="RIGHT", text=")"), n=len(inside) + 2)
+    span = across(first, last)
+    message = "`[ ]` mean nothing in Motion Script"
+    return mistake("MS003", message, span, f"did you mean `{right}`?", Fix(span, right, safe=False), meant=meant)
 
 
 def _other_language(stuck: Stuck, message: str, token: Token) -> Mistake | None:
@@ -142,7 +167,21 @@ def stray_sign(stuck: Stuck) -> Mistake | None:
     if token.type == "COLON" and stuck.left == 1 and stuck.at:
         fix = Fix(token.span, "", safe=False)
         return mistake("MS010", message, token.span, "take it out", fix, meant=replaced(stuck, stuck.at))
-    return mistake("MS010", message, token.span, advice)
+    brace = Brace.OUTSIDE if token.type == "BAR" else None
+    return mistake("MS010", message, token.span, advice, brace=brace)
+
+
+def or_for_bar(stuck: Stuck) -> Mistake | None:
+    """`choose { 3: WALK or 1: IDLE }`."""
+    at = next((stuck.at + offset for offset in (0, -1) if stuck.type(offset) == "OR"), None)
+    if at is None or not stuck.in_choose:
+        return None
+    if [token.type for token in stuck.tokens[at + 1 : at + 3]] != ["INTEGER", "COLON"]:
+        return None
+    word = stuck.tokens[at]
+    fix = Fix(word.span, "|", safe=False)
+    message = "branches are separated by `|`, not by `or`"
+    return mistake("MS010", message, word.span, "write `|`", fix, meant=stuck.tokens[:at])
 
 
 def _comma(stuck: Stuck, token: Token) -> Mistake:

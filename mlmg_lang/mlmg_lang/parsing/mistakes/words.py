@@ -7,7 +7,7 @@ from dataclasses import replace
 from typing import Final
 
 from mlmg_grammar import reserved_words
-from mlmg_lang.diagnostics import Fix
+from mlmg_lang.diagnostics import Brace, Fix
 from mlmg_lang.parsing.amounts import UNITS
 from mlmg_lang.parsing.build_syntax import motion_script
 from mlmg_lang.parsing.foreign import MEANT, NEXT
@@ -25,6 +25,11 @@ _BEGIN: Final = frozenset({"let", "use", "repeat", "choose", "wait", "end"})
 def wrong_case(stuck: Stuck) -> Mistake | None:
     """`WALK FOR 10 SEC`: one message for all such words of the line."""
     lowered = _lowered(stuck.tokens)
+    if 0 in lowered and lowered[0].type == "FOR" and len(stuck.tokens) > 1 and stuck.tokens[1].type in NUMBERS:
+        # The rest of a statement on a line of its own: whatever is before it, this is all that is wrong here.
+        word = stuck.tokens[0]
+        fix = Fix(word.span, "for", safe=True)
+        return mistake("MS011", _case_message(listed([word.text])), word.span, "write `for`", fix)
     for first in (0, max(stuck.at - 2, 0)):
         changed = {at: word for at, word in lowered.items() if at >= first}
         meant = tuple(changed.get(at, token) for at, token in enumerate(stuck.tokens))
@@ -165,11 +170,11 @@ def head_without_body(stuck: Stuck) -> Mistake | None:
         if "INTEGER" in stuck.accepts:
             return _count_missing(stuck)
         message = f"`repeat {stuck.tokens[1].text}` is followed by its statements in `{{ }}`, found {found(stuck)}"
-        return mistake("MS013", message, stuck.span, advice)
+        return mistake("MS013", message, stuck.span, advice, brace=Brace.MISSING)
     if first.type == "CHOOSE":
         advice = "write `choose { ... | ... }`"
         message = f"`choose` is followed by its branches in `{{ }}`, found {found(stuck)}"
-        return mistake("MS013", message, stuck.span, advice)
+        return mistake("MS013", message, stuck.span, advice, brace=Brace.MISSING)
     return None
 
 
