@@ -1,7 +1,7 @@
 # make demo    install, and play examples/tour.ms on the demo library into tour.bvh
 # make test    all tests;  make edits: the language server after 10,000 random edits;  make soak: its memory after 100,000
 # make lint    style and who may import whom;  make types: mypy;  make bench: measurements beside peers
-# make pictures  the pictures of the README;  make recording: the session in it;  make grammars: what editors and the docs have of the grammar
+# make pictures  the pictures of the README, the icon;  make recording: the session in it;  make grammars: what editors and the docs have of the grammar
 # make vsix    the extension for VS Code;  make test-vscode: tries it in a real one;  make screenshot: the picture of it
 
 PYTHON ?= python3
@@ -37,7 +37,10 @@ bench: $(VENV)/bench-tools
 	for bench in benchmarks/bench_*.py; do $(BIN)/python $$bench || exit 1; done
 
 pictures: $(VENV)/test-tools demo
+	mkdir -p dist
 	$(BIN)/mlmg view tour.bvh --report tour.json -o docs/tour.png
+	$(BIN)/mlmg view tour.bvh --report tour.json -o dist/walking.png --frames 250
+	$(BIN)/python docs/recording/icon.py dist/walking.png lsp/editors/vscode/icon.png
 
 # A session of `mlmg repl`, as a terminal showed it.
 recording: $(VENV)/installed
