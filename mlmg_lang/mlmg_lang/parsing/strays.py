@@ -145,7 +145,7 @@ def _stray_closing(tokens: Sequence[Token], at: int, before: str, after: str, de
     """Return a `}` if it is not meant."""
     is_for_right = depth == 0 and before in NAMES | {"RIGHT"} and _is_inside(tokens, at)
     if after == "NEWLINE" and not is_for_right:
-        return Stray(at) if depth == 0 and _goes_on_below(tokens, at) else None
+        return None
     # Where the block begins in the same line, and ends nowhere else in it, this is its end.
     is_end = depth > 0 and _n_open_before(tokens, at) > 0 and _n_closing_behind(tokens, at) == 0
     if _is_inside(tokens, at) and not is_end and before in NAMES | {"RIGHT"}:
@@ -156,12 +156,6 @@ def _stray_closing(tokens: Sequence[Token], at: int, before: str, after: str, de
     side_by_side = depth == 0 and before in NAMES and after in NAMES | {"LEFT"}
     is_cut = after in _WITHIN and not is_end
     return Stray(at) if splits or side_by_side or is_cut or (depth == 0 and after == "OPEN") else None
-
-
-def _goes_on_below(tokens: Sequence[Token], at: int) -> bool:
-    """Return whether the next line that says anything goes on with the statement before a sign."""
-    below = (token.type for token in tokens[at + 1 : at + _REACH] if token.type not in _BETWEEN)
-    return next(below, "NEWLINE") in CONTINUES
 
 
 def _n_open_before(tokens: Sequence[Token], at: int) -> int:
@@ -273,8 +267,6 @@ def _stray_opening(tokens: Sequence[Token], at: int, before: str, after: str) ->
         closing = None  # It ends the block that is opened before.
     if defines(head) and (closing is not None or after != "NEWLINE"):
         return Stray(at) if closing is None and head[0].type == "LET" else None
-    if after == "NEWLINE" and _goes_on_below(tokens, at):
-        return Stray(at)
     if closing is not None:
         behind = _after(tokens, closing)
         return Stray(at, closing) if before in _GOES_ON or after in _WITHIN or behind in _WITHIN else None
