@@ -99,7 +99,7 @@ async def asked(server: MotionScriptServer) -> None:
     """Ask for what is kept from one answer to the next, and for what cannot be had."""
     snapshot = await server.snapshot(URI)
     document = types.TextDocumentIdentifier(URI)
-    for module in ("semantic_tokens", "outline", "formatting"):
+    for module in ("semantic_tokens", "outline", "code_lens", "formatting"):
         answer_named(f"{module}.get_ahead")(snapshot)
     assert await server.foresight.of(snapshot) is not None
     position = types.Position(0, 0)

@@ -127,5 +127,5 @@ def warm() -> None:
 
 def get_ahead(snapshot: Any) -> None:
     """Find out of a text that has been opened what takes long the first time, though nobody has asked yet."""
-    for module in ("semantic_tokens", "outline", "formatting"):
+    for module in ("semantic_tokens", "outline", "code_lens", "formatting"):
         answer_named(f"{module}.get_ahead")(snapshot)

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from enum import StrEnum
 
-from mlmg_lang.analysis import Analysis, InPieces
-from mlmg_lang.chunks import all_of
+from mlmg_lang.analysis import Analysis
+from mlmg_lang.blocks import Statement, WholeBlock
 from mlmg_lang.parsing import syntax
 from mlmg_lang.planning import resolved
 from mlmg_lang.source import Span
@@ -43,28 +43,50 @@ def lenses(analysis: Analysis) -> tuple[Lens, ...]:
 
     Only of a script without mistakes that a library is known for; of others there is nothing that could be played.
     """
-    if analysis.question.catalog is None or analysis.found.wrong:
+    if not can_be_played(analysis):
         return ()
-    found = tuple(_candidates(analysis.made))
-    if not found:
-        return ()
+    made = analysis.ready
+    parts = zip(made.pieces, made.played, made.places.starts, strict=False)
+    found = [_moved(lens, start) for piece, played, start in parts for lens in piece_lenses(piece, played.statements)]
+    return (*of_script(), *found) if found else ()
+
+
+def can_be_played(analysis: Analysis) -> bool:
+    """Return whether there may be lenses."""
+    return analysis.question.catalog is not None and not analysis.found.wrong
+
+
+def of_script() -> tuple[Lens, Lens]:
+    """Return what can be done with a script that has any command."""
     top = Span(0, 0)
-    return (Lens(top, "play to BVH", Deed.PLAY), Lens(top, "explain", Deed.EXPLAIN), *found)
+    return Lens(top, "play to BVH", Deed.PLAY), Lens(top, "explain", Deed.EXPLAIN)
 
 
-def _candidates(made: InPieces) -> Iterator[Lens]:
-    titles = {command.span: _title(command) for command in _commands(_statements(made))}
-    for line, start in zip(made.lines, made.places.line_starts, strict=False):
+def piece_lenses(piece: Statement, played: Iterable[resolved.Statement]) -> tuple[Lens, ...]:
+    """Return what can be done with the commands of a piece, with places counted from its beginning.
+
+    Parameters
+    ----------
+    played : what is played by it, at its addresses.
+    """
+    titles = {command.span: _title(command) for command in _commands(played)}
+    return tuple(_candidates(piece, titles)) if titles else ()
+
+
+def _candidates(piece: Statement, titles: Mapping[Span, str]) -> Iterator[Lens]:
+    start = 0
+    for line in piece.lines if isinstance(piece, WholeBlock) else (piece,):
         further = start - line.address
         for command in _written(line.items):
             if command.span in titles:
                 span = Span(command.span.start + further, command.span.end + further)
                 yield Lens(span, titles[command.span], Deed.CANDIDATES, span)
+        start += line.size
 
 
-def _statements(made: InPieces) -> Iterable[resolved.Statement]:
-    """Return what is to be played, at its addresses."""
-    return made.resolution.plan.statements if made.resolution is not None else all_of(made.played, "statements")
+def _moved(lens: Lens, further: int) -> Lens:
+    span = Span(lens.span.start + further, lens.span.end + further)
+    return replace(lens, span=span, about=span)
 
 
 def _commands(statements: Iterable[resolved.Statement]) -> Iterator[resolved.Command]:
