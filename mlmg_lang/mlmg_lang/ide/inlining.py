@@ -8,7 +8,6 @@ from itertools import pairwise
 from operator import attrgetter
 
 from mlmg_lang.analysis import Analysis, InPieces
-from mlmg_lang.blocks import WholeBlock
 from mlmg_lang.diagnostics import has_errors
 from mlmg_lang.ide.rewriting import Edit
 from mlmg_lang.ide.touching import pieces_touching
@@ -84,25 +83,25 @@ def _of_all(analysis: Analysis, let: syntax.Let) -> Iterator[Inlining]:
     if definitions.find(let.name) is not let or has_errors(made.defined) or any(map(attrgetter("broken"), made.lines)):
         return
     edits = []
-    for use in (use for line in made.lines for item in line.items if item is not let for use in _uses(item)):
-        if normal(use.node.name.text) == normal(let.name.text):
-            text = _put_in(analysis, let, use)
-            if text is None:
-                return
-            edits.append(Edit(made.now(use.node.span), text))
+    for use, further in _uses_of(made, let):
+        text = _put_in(analysis, let, use)
+        if text is None:
+            return
+        at = use.node.span
+        edits.append(Edit(Span(at.start + further, at.end + further), text))
     removal = Edit(_line_of(made.source, made.now(let.span)), "")
     if not edits or any(_overlap(one, other) for one, other in pairwise(_sorted(edits))):
         return
     yield Inlining(f"put in what `{let.name.text}` says everywhere, and take it out", _sorted([*edits, removal]))
 
 
-def _uses_of(made: InPieces, let: syntax.Let) -> Iterator[_Use]:
-    """Yield the names in a script that may be that of a definition, wherever it is used, and others beside them."""
+def _uses_of(made: InPieces, let: syntax.Let) -> Iterator[tuple[_Use, int]]:
+    """Yield where a script uses a definition, in the order of the text, each with how far from its address it is."""
     name = normal(let.name.text)
-    for piece in made.pieces:
-        lines = piece.lines if isinstance(piece, WholeBlock) else (piece,)
-        if any(name in line.used or line.defining for line in lines):
-            yield from (use for item in piece.items if item is not let for use in _uses(item))
+    for line, start in zip(made.lines, made.places.line_starts, strict=False):
+        if name in line.used or line.defining:
+            uses = (use for item in line.items if item is not let for use in _uses(item))
+            yield from ((use, start - line.address) for use in uses if normal(use.node.name.text) == name)
 
 
 def _sorted(edits: Iterable[Edit]) -> tuple[Edit, ...]:
@@ -145,6 +144,8 @@ def _put_in(analysis: Analysis, let: syntax.Let, use: _Use) -> str | None:
 
 def _means_otherwise(let: syntax.Let, hidden: frozenset[str]) -> bool:
     """Return whether a name in a definition would mean a parameter of the one that it is put into."""
+    if not hidden:
+        return False
     own = {normal(one.name.text) for one in let.parameters or ()}
     names = {normal(node.text) for node in syntax.walk(let.command) if isinstance(node, syntax.Name)}
     return bool((names - own) & hidden)
@@ -168,7 +169,7 @@ class _Putting:
         return text
 
     def _given(self, node: syntax.Node) -> Iterator[syntax.Name]:
-        for part in syntax.walk(node):
+        for part in syntax.walk(node) if self.values else ():
             match part:
                 case syntax.Reference(name) | syntax.Command(duration=syntax.Name() as name):
                     if normal(name.text) in self.values:
