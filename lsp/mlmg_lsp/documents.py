@@ -262,7 +262,12 @@ class Documents:
 
     async def _look_ahead(self, snapshot: Snapshot) -> None:
         """Find out what takes long the first time; later edits leave nearly all of it as it is."""
-        await off_loop(lambda: self._get_ahead(snapshot))
+
+        def work() -> None:
+            with undisturbed():
+                self._get_ahead(snapshot)
+
+        await off_loop(work)
         settle()
 
     def _work(self, document: Document) -> Callable[[], Analysis]:

@@ -13,12 +13,15 @@ from mlmg_lsp.work import off_loop
 if TYPE_CHECKING:
     from mlmg_lang.analysis import Analysis
     from mlmg_lang.explaining.travel import MotionTravel
-    from mlmg_lang.ide.foreseen import Foreseen
+    from mlmg_lang.ide.foreseen import Foreseen, Remembered
+    from mlmg_lang.ide.hints import Outlook
     from mlmg_lsp.documents import Snapshot
     from mlmg_lsp.libraries import Shelved
 
 _GRACE_S: Final = 0.1
 """So long it is waited for; what takes longer, the client is told of when it is there."""
+_PATIENCE_S: Final = 0.5
+"""So long it is waited for where a client cannot be told, but can be given what was known before."""
 _QUIET_S: Final = 0.3
 """So long there is to be no edit before what takes long is begun again."""
 _MOST_USES: Final = 200
@@ -31,52 +34,57 @@ class _Known:
 
     Attributes
     ----------
-    last : the last that was found out, of which analysis, and how long that took, in seconds.
+    last : the last that was found out.
     is_late : whether somebody has gone without.
     """
 
     analysis: Analysis
     task: asyncio.Task[Foreseen | None]
-    last: tuple[Foreseen, Analysis, float] | None
+    last: Remembered | None
     is_late: bool = False
 
 
 class Foresight:
     """What is foreseen of all texts of one client."""
 
-    def __init__(self, is_there: Callable[[], object], failed: Callable[[Exception], object]) -> None:
+    def __init__(
+        self,
+        get_ready: Callable[[Snapshot, Outlook], object],
+        is_there: Callable[[], object],
+        failed: Callable[[Exception], object],
+    ) -> None:
         """Take what is to be told.
 
         Parameters
         ----------
-        is_there : called when something is known that was asked for in vain. failed : called with what went wrong.
+        get_ready : called with what is known of a text that was asked for in vain, beside all else.
+        is_there : called after that. failed : called with what went wrong.
         """
+        self._get_ready = get_ready
         self._is_there = is_there
         self._failed = failed
         self._known: dict[str, _Known] = {}
+        self._slow: set[str] = set()
         self._travel: tuple[Shelved, MotionTravel, int] | None = None
         self._hopeless: Shelved | None = None
         self._one_by_one = asyncio.Lock()
 
-    async def of(self, snapshot: Snapshot) -> Foreseen | None:
+    async def of(self, snapshot: Snapshot) -> Outlook | None:
         """Return how the commands of a text will go, as far as that is known; None if it cannot be known.
 
-        A client that could not be told later waits until it is.
+        While it is not known yet, and as long as the text has mistakes, commands that edits have left alone are told of
+        as before. A client that cannot be told to ask again waits longer; the first time, until it is known.
         """
         known = self._begun(snapshot)
-        wait = None
+        wait = None if known.last is None else _PATIENCE_S
         if "inlay_hint" in snapshot.client.refreshed:
-            wait = 0.0 if _takes_long(known) else _GRACE_S
+            wait = 0.0 if snapshot.uri in self._slow else _GRACE_S
         await asyncio.wait({known.task}, timeout=wait)
-        if known.task.done():
-            return None if known.task.cancelled() else known.task.result()
+        told = known.task.result() if known.task.done() and not known.task.cancelled() else None
+        if told is not None:
+            return told
         known.is_late = True
-        if known.last is None:
-            return None
-        from mlmg_lang.ide.foreseen import still_foreseen
-
-        told, before, _ = known.last
-        return await off_loop(lambda: still_foreseen(told, before, snapshot.analysis))
+        return None if known.last is None else known.last.of(snapshot.analysis.made)
 
     def stop(self, uri: str) -> None:
         """Work no longer at what has been edited meanwhile."""
@@ -87,6 +95,7 @@ class Foresight:
         """Let go of a text."""
         self.stop(uri)
         self._known.pop(uri, None)
+        self._slow.discard(uri)
 
     def end(self) -> None:
         """Let go of all, with the libraries that it was worked out of."""
@@ -107,8 +116,7 @@ class Foresight:
         shelved = snapshot.shelved
         if shelved is None or shelved is self._hopeless or snapshot.analysis.found.wrong:
             return None
-        known = self._known.get(snapshot.uri)
-        if known is not None and _takes_long(known):
+        if snapshot.uri in self._slow:
             await asyncio.sleep(_QUIET_S)
         async with self._one_by_one:
             begin = time.monotonic()
@@ -118,10 +126,19 @@ class Foresight:
                 self._hopeless = shelved
                 self._failed(error)
                 return None
+            finally:  # also where an edit has put an end to it
+                is_slow = time.monotonic() - begin > _GRACE_S
+                if is_slow and snapshot.uri in self._known:
+                    self._slow.add(snapshot.uri)
+        if not is_slow:
+            self._slow.discard(snapshot.uri)
         known = self._known.get(snapshot.uri)
         if known is not None and known.analysis is snapshot.analysis:
-            known.last = (told, snapshot.analysis, time.monotonic() - begin)
+            from mlmg_lang.ide.foreseen import Remembered
+
+            known.last = Remembered(told, snapshot.analysis.made)
             if known.is_late:
+                await off_loop(lambda: self._get_ready(snapshot, told))
                 self._is_there()
         return told
 
@@ -145,10 +162,6 @@ class Foresight:
         _, travel, n_uses = self._travel
         self._travel = (shelved, travel, n_uses + 1)
         return travel
-
-
-def _takes_long(known: _Known) -> bool:
-    return known.last is not None and known.last[2] > _GRACE_S
 
 
 def _new_travel(shelved: Shelved) -> MotionTravel:

@@ -21,7 +21,17 @@ from mlmg_lang.libraries import SETTINGS
 from mlmg_lsp.client import client_from
 from mlmg_lsp.documents import Document, Documents, Snapshot, Superseded, path_of
 from mlmg_lsp.executing import Executor
-from mlmg_lsp.features import COMMANDS, FEATURES, INLAY_HINT, RESOLVING, WORKSPACE_SYMBOL, answer_named, get_ahead, warm
+from mlmg_lsp.features import (
+    COMMANDS,
+    FEATURES,
+    HINTS_AHEAD,
+    INLAY_HINT,
+    RESOLVING,
+    WORKSPACE_SYMBOL,
+    answer_named,
+    get_ahead,
+    warm,
+)
 from mlmg_lsp.foresight import Foresight
 from mlmg_lsp.libraries import Shelf
 from mlmg_lsp.offering import offer_demo
@@ -34,6 +44,7 @@ from mlmg_runtime.errors import MlmgError
 
 if TYPE_CHECKING:
     from mlmg_lang.definitions.gather import Files
+    from mlmg_lang.ide.hints import Outlook
 
 _SECTION: Final = "mlmg"
 _WATCHED: Final = ("**/*.ms", "**/*.mlmg", "**/library.toml", f"**/{SETTINGS}")
@@ -65,7 +76,7 @@ class MotionScriptServer(LanguageServer):
         self.folders = Workspace(settings, shelf)
         self.documents = Documents(self._files_of, self._publish, warm, get_ahead)
         self.telling = Telling(self._tell)
-        self.foresight = Foresight(lambda: self._refresh("inlay_hint"), self._foresight_failed)
+        self.foresight = Foresight(self._get_hints, lambda: self._refresh("inlay_hint"), self._foresight_failed)
         self.executor = Executor(self, self.documents, self.snapshot)
         self._said: set[str] = set()
         self._uris: dict[str, str] = {}
@@ -300,6 +311,9 @@ class MotionScriptServer(LanguageServer):
     def _tell(self, name: str, found: list[types.Diagnostic], version: int | None) -> None:
         uri = self._uris[name] if name in self._uris else Path(name).as_uri()
         self.text_document_publish_diagnostics(types.PublishDiagnosticsParams(uri, found, version=version))
+
+    def _get_hints(self, snapshot: Snapshot, outlook: Outlook) -> None:
+        answer_named(HINTS_AHEAD)(snapshot, outlook, self.folders.settings.hints)
 
     def _foresight_failed(self, error: Exception) -> None:
         message = f"What commands will play cannot be foreseen: {error!r}"

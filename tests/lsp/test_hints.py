@@ -92,6 +92,29 @@ def test_a_client_that_could_not_be_told_later_waits(start):
     assert any("Walk_0" in label for _, label in hints(opened(start, LONG)))
 
 
+def test_as_long_as_there_are_mistakes_commands_that_are_left_alone_are_told_of_as_before(start):
+    client = opened(start, TEXT)
+    before = hints(client)
+    place = {"line": 3, "character": 0}
+    client.edit(URI, 2, {"range": {"start": place, "end": place}, "text": "WLAK\n"})
+    assert hints(client) == [(line + (line > 2), label) for line, label in before]
+    end = {"line": 4, "character": 0}
+    client.edit(URI, 3, {"range": {"start": place, "end": end}, "text": ""})
+    assert hints(client) == before
+
+
+@pytest.mark.parametrize("kind", ["motions", "units"])
+def test_after_edits_and_with_other_settings_they_are_those_of_a_script_opened_anew(start, kind):
+    client = opened(start, TEXT)
+    hints(client)
+    switched(client, kind, False)
+    text = TEXT.replace("go(who) = who", "go(whom, t = 1 sec) = whom")
+    client.edit(URI, 2, {"text": text})
+    afresh = opened(start, text, initializationOptions={"inlayHints": {kind: False}})
+    assert hints(client) == hints(afresh) != []
+    assert hints(client, 2, 3) == hints(afresh, 2, 3)
+
+
 def test_without_a_library_or_with_mistakes_only_what_is_written_is_spelled_out(start):
     client = start("--stdio")
     client.initialize()

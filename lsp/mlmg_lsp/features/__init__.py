@@ -90,6 +90,8 @@ COMMANDS: Final[Mapping[str, str]] = {
 
 INLAY_HINT: Final = "inlay_hint.inlay_hint"
 """What answers for hints, which waits for more than a text."""
+HINTS_AHEAD: Final = "inlay_hint.get_ahead"
+"""What finds them out before anybody asks."""
 
 WORKSPACE_SYMBOL: Final = "workspace_symbol.workspace_symbol"
 """What looks for names in all open texts."""
@@ -127,5 +129,5 @@ def warm() -> None:
 
 def get_ahead(snapshot: Any) -> None:
     """Find out of a text that has been opened what takes long the first time, though nobody has asked yet."""
-    for module in ("semantic_tokens", "outline", "code_lens", "formatting"):
+    for module in ("semantic_tokens", "outline", "code_lens", "inlay_hint", "formatting"):
         answer_named(f"{module}.get_ahead")(snapshot)

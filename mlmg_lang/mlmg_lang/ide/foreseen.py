@@ -2,17 +2,22 @@
 
 from __future__ import annotations
 
+from bisect import bisect_right
 from collections import defaultdict
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import cached_property
+from itertools import takewhile
 
-from mlmg_lang.analysis import Analysis
-from mlmg_lang.ide.hints import Going
+from mlmg_lang.analysis import InPieces
+from mlmg_lang.blocks import Statement
+from mlmg_lang.ide.hints import Going, Outlook
+from mlmg_lang.planning import resolved
 from mlmg_lang.planning.course import driver
 from mlmg_lang.planning.estimate import NO_TIME, Estimate, mixed
 from mlmg_lang.planning.forecast import Forecast, Outcome, chances_of
 from mlmg_lang.planning.names import Names
-from mlmg_lang.planning.resolved import Choose, Command, Repeat, ResolvedPlan, Statement
+from mlmg_lang.planning.resolved import Choose, Command, Repeat, ResolvedPlan
 from mlmg_lang.source import Span
 
 
@@ -32,21 +37,72 @@ def foreseen(plan: ResolvedPlan, expected: Forecast, names: Names) -> Foreseen:
     return Foreseen(dict(_Clock(expected, names).goings(plan.statements, 0.0)))
 
 
-def still_foreseen(told: Foreseen, before: Analysis, now: Analysis) -> Foreseen:
-    """Return what was foreseen of a text before an edit, for the commands that the edit has left alone.
+@dataclass(frozen=True)
+class Remembered:
+    """What was foreseen of a text, to be told of later ones for the commands that edits have left alone.
 
-    Where they come to stand is right, how they go may be otherwise by now: it is to be shown until that is known.
+    How they go may be otherwise by then: it is to be shown until that is known.
     """
-    starts, pieces = before.made.places.starts, before.made.pieces
-    now_at = {id(piece): start for piece, start in zip(now.made.pieces, now.made.places.starts, strict=False)}
-    left: dict[Span, Going] = {}
-    for command, going in told.goings.items():
-        at = min(starts.last_to(command.start), len(pieces) - 1)
-        start = now_at.get(id(pieces[at]))
-        if start is not None:
-            further = start - starts[at]
-            left[Span(command.start + further, command.end + further)] = going
-    return Foreseen(left)
+
+    told: Foreseen
+    text: InPieces
+
+    def of(self, now: InPieces) -> Outlook:
+        """Return how the commands of a later text would go."""
+        before, after = (one.source.text.splitlines(keepends=True) for one in (self.text, now))
+        head = _n_common(before, after)
+        tail = min(_n_common(before[::-1], after[::-1]), len(now.source.text) - head)
+        return _Remembering(self, list(now.pieces), list(now.places.starts), len(now.source.text), head, tail)
+
+    def of_piece(self, piece: Statement, command: Span) -> Going | None:
+        """Return how the command at a place in a piece was to go; places count from the beginning of that."""
+        start = self._starts.get(id(piece))
+        return None if start is None else self.told.going(Span(command.start + start, command.end + start))
+
+    @cached_property
+    def _starts(self) -> dict[int, int]:
+        return {id(piece): start for piece, start in zip(self.text.pieces, self.text.places.starts, strict=False)}
+
+
+@dataclass(frozen=True, slots=True)
+class _Remembering:
+    """Tells of a later text.
+
+    Attributes
+    ----------
+    pieces, starts : of that, and where they begin. size : how long it is.
+    head, tail : as many code points of whole lines are the same at its beginning, and at its end.
+    """
+
+    known: Remembered
+    pieces: Sequence[Statement]
+    starts: Sequence[int]
+    size: int
+    head: int
+    tail: int
+
+    def going(self, command: Span) -> Going | None:
+        """Return how the command at a place was to go."""
+        at = max(bisect_right(self.starts, command.start, hi=len(self.pieces)) - 1, 0)
+        own = self.known.of_piece(self.pieces[at], _on(command, -self.starts[at]))
+        return own or self._beside_the_edit(command)
+
+    def _beside_the_edit(self, command: Span) -> Going | None:
+        """Return how the command was to go at a place in lines that are the same, though they have been read again."""
+        if command.end <= self.head:
+            return self.known.told.going(command)
+        if command.start < self.size - self.tail:
+            return None
+        return self.known.told.going(_on(command, len(self.known.text.source.text) - self.size))
+
+
+def _on(span: Span, further: int) -> Span:
+    return Span(span.start + further, span.end + further)
+
+
+def _n_common(one: Sequence[str], other: Sequence[str]) -> int:
+    """Return how long the lines are together that are the same from the first on."""
+    return sum(len(line) for line, _ in takewhile(lambda pair: pair[0] == pair[1], zip(one, other, strict=False)))
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,7 +110,7 @@ class _Clock:
     expected: Forecast
     names: Names
 
-    def goings(self, statements: Iterable[Statement], now_s: float) -> Iterator[tuple[Span, Going]]:
+    def goings(self, statements: Iterable[resolved.Statement], now_s: float) -> Iterator[tuple[Span, Going]]:
         """Yield how the commands in a row go that begin now."""
         for statement in statements:
             if isinstance(statement, Command):
@@ -75,7 +131,7 @@ class _Clock:
         motions = max(chances, key=lambda one: chances[one], default=())
         return Going(motions, arrives_s, sure=len(chances) == 1)
 
-    def _takes(self, statement: Statement) -> Estimate:
+    def _takes(self, statement: resolved.Statement) -> Estimate:
         """Return how long a statement takes, from its beginning to that of the next."""
         passages = self.expected.passages
         if isinstance(statement, Repeat):

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator
-from dataclasses import dataclass
+from collections.abc import Collection, Iterator, Sequence
+from dataclasses import dataclass, replace
 from enum import StrEnum
 from typing import Protocol
 
 from mlmg_lang.analysis import Analysis
+from mlmg_lang.blocks import Statement
+from mlmg_lang.catalog import Catalog
+from mlmg_lang.definitions.gather import Definitions
+from mlmg_lang.ide.rewriting import commands
 from mlmg_lang.ide.touching import pieces_touching
 from mlmg_lang.parsing import syntax
 from mlmg_lang.parsing.amounts import UNITS, seconds_from_quantity, spelled, unit_of
@@ -77,51 +81,101 @@ def hints(
     ----------
     outlook : how commands go; without it, nothing is said of that.
     """
-    hinter = _Hinter(analysis, outlook)
-    touching = pieces_touching(analysis, within)
-    found = (hint for piece, further in touching for item in piece.items for hint in hinter.of(item, further))
-    inside = (hint for hint in found if hint.kind in kinds and within.start <= hint.offset <= within.end)
+    found: list[Hint] = []
+    for piece, further in pieces_touching(analysis, within):
+        start = piece.address + further
+        going = goings(piece, start, outlook)
+        text = analysis.source.text[start : start + piece.size]
+        own = piece_hints(piece, text, Meanings.of(analysis), going, kinds)
+        found += (replace(hint, offset=hint.offset + start) for hint in own)
+    return tuple(hint for hint in found if within.start <= hint.offset <= within.end)
+
+
+@dataclass(frozen=True, slots=True)
+class Meanings:
+    """What hints depend on beside what is written, and how commands go."""
+
+    definitions: Definitions
+    catalog: Catalog | None
+
+    @classmethod
+    def of(cls, analysis: Analysis) -> Meanings:
+        """Return that of a script."""
+        return cls(analysis.made.gathered.definitions, analysis.question.catalog)
+
+
+def goings(piece: Statement, start: int, outlook: Outlook | None) -> tuple[Going | None, ...]:
+    """Return how the commands of a piece go that begins at an offset; nothing if that is known of none."""
+    if outlook is None:
+        return ()
+    further = start - piece.address
+    spans = (one.span for one in commands(piece.items))
+    found = tuple([outlook.going(Span(span.start + further, span.end + further)) for span in spans])
+    return () if all(one is None for one in found) else found
+
+
+def has_arguments(piece: Statement) -> bool:
+    """Return whether the hints of a piece depend on definitions."""
+    return any(isinstance(node, syntax.Call) for item in piece.items for node in syntax.walk(item))
+
+
+def piece_hints(
+    piece: Statement, text: str, meanings: Meanings, going: Sequence[Going | None], kinds: Collection[Kind] = ALL
+) -> tuple[Hint, ...]:
+    """Return the hints in a piece, with places counted from its beginning, in the order of the text.
+
+    Parameters
+    ----------
+    text : of the piece. going : how its commands go; see `goings`.
+    """
+    hinter = _Hinter(text, meanings, -piece.address)
+    told = (
+        hint for command, one in zip(commands(piece.items), going, strict=False) for hint in hinter.of(command, one)
+    )
+    written = (hint for item in piece.items for hint in hinter.written(item))
+    found = (hint for hint in (*told, *written) if hint.kind in kinds)
     # What a command takes stands behind what its last word means.
-    return tuple(sorted(inside, key=lambda hint: (hint.offset, not hint.before, hint.kind in _OF_COMMANDS)))
+    return tuple(sorted(found, key=lambda hint: (hint.offset, not hint.before, hint.kind in _OF_COMMANDS)))
 
 
 @dataclass(frozen=True, slots=True)
 class _Hinter:
-    analysis: Analysis
-    outlook: Outlook | None
+    """Makes the hints of a piece, whose text begins `further` on from address 0."""
 
-    def of(self, item: syntax.Item, further: int) -> Iterator[Hint]:
-        """Yield the hints of an item that stands `further` on."""
-        own = item.command if isinstance(item, syntax.Let) else None
-        for node in syntax.walk(item):
-            match node:
-                case syntax.Command() if node is not own:
-                    yield from self._taken(Span(node.span.start + further, node.span.end + further))
-                case syntax.Quantity():
-                    yield from self._lasting(node, node.span.end + further)
-                case syntax.Call():
-                    yield from self._given(node, further)
+    text: str
+    meanings: Meanings
+    further: int
 
-    def _taken(self, command: Span) -> Iterator[Hint]:
-        going = None if self.outlook is None else self.outlook.going(command)
+    def of(self, command: syntax.Command, going: Going | None) -> Iterator[Hint]:
+        """Yield what a command takes, and when it arrives."""
         if going is None or not going.motions:
             return
+        start, end = command.span.start + self.further, command.span.end + self.further
         lines = [f"{motion} on {graph}" for graph, motion in going.motions]
         unsure, likely = ("", "") if going.sure else ("~ ", "probably ")
-        written = self.analysis.source.slice(command)
+        written = self.text[start:end]
         if not going.sure or not all(motion in written for _, motion in going.motions):
             label = unsure + " with ".join(motion for _, motion in going.motions)
-            yield Hint(command.end, label, Kind.MOTIONS, False, f"{likely}{', '.join(lines)}")
+            yield Hint(end, label, Kind.MOTIONS, False, f"{likely}{', '.join(lines)}")
         if going.arrives_s is not None:
             when = f"at {spelled(round(going.arrives_s, 1)) or '0'} sec"
             says = f"{likely}all parts have arrived {when} from the beginning"
-            yield Hint(command.end, unsure + when, Kind.ARRIVALS, False, says)
+            yield Hint(end, unsure + when, Kind.ARRIVALS, False, says)
+
+    def written(self, item: syntax.Item) -> Iterator[Hint]:
+        """Yield what is meant by what is written."""
+        for node in syntax.walk(item):
+            match node:
+                case syntax.Quantity():
+                    yield from self._lasting(node, node.span.end + self.further)
+                case syntax.Call():
+                    yield from self._given(node)
 
     def _lasting(self, quantity: syntax.Quantity, end: int) -> Iterator[Hint]:
         """Yield what a quantity is in seconds, if it is not written so."""
         if quantity.unit not in UNITS or quantity.unit in ("sec", "second", "seconds"):
             return
-        catalog = self.analysis.question.catalog
+        catalog = self.meanings.catalog
         rate = None if catalog is None else catalog.frame_rate
         seconds, unit = seconds_from_quantity(quantity, rate), unit_of(quantity)
         if unit == "cycles":
@@ -131,9 +185,9 @@ class _Hinter:
             label = f"= {spelled(seconds) or '0'} sec"
             yield Hint(end, label, Kind.UNITS, False, f"{quantity.number} {unit} are {label[2:]}{said}")
 
-    def _given(self, call: syntax.Call, further: int) -> Iterator[Hint]:
+    def _given(self, call: syntax.Call) -> Iterator[Hint]:
         """Yield the parameters that arguments without a name are for."""
-        let = self.analysis.made.gathered.definitions.find(call.name)
+        let = self.meanings.definitions.find(call.name)
         if let is None:
             return
         for argument, parameter in zip(call.arguments, let.parameters or (), strict=False):
@@ -142,7 +196,7 @@ class _Hinter:
             if not _says(argument.value, parameter.name):
                 name = parameter.name.text
                 explanation = f"the parameter `{name}` of `{let.name.text}`"
-                yield Hint(argument.span.start + further, f"{name} =", Kind.PARAMETERS, True, explanation)
+                yield Hint(argument.span.start + self.further, f"{name} =", Kind.PARAMETERS, True, explanation)
 
 
 def _says(value: syntax.Motion | syntax.Quantity, name: syntax.Name) -> bool:

@@ -14,8 +14,7 @@ def pieces_touching(analysis: Analysis, within: Span) -> Iterator[tuple[Piece | 
     """Yield the pieces that a stretch touches, each with how far from its address it stands."""
     made = analysis.made
     starts = made.places.starts
-    first = min(starts.last_to(within.start), len(made.pieces) - 1)
-    for at in range(max(0, first), len(made.pieces)):
-        if starts[at] > within.end:
-            return
-        yield made.pieces[at], starts[at] - made.pieces[at].address
+    first = max(0, min(starts.last_to(within.start), len(made.pieces) - 1))
+    end = starts.last_to(within.end) + 1
+    for piece, start in zip(made.pieces[first:end], starts[first:end], strict=False):
+        yield piece, start - piece.address

@@ -4,11 +4,11 @@ import pytest
 
 from mlmg_lang.catalog import Catalog
 from mlmg_lang.front_end import analyse, analyse_again
-from mlmg_lang.ide.foreseen import foreseen, still_foreseen
+from mlmg_lang.ide.foreseen import Remembered, foreseen
 from mlmg_lang.planning.estimate import Estimate, Playing, Trip, exactly
 from mlmg_lang.planning.forecast import forecast
 from mlmg_lang.planning.names import Names
-from mlmg_lang.source import Source
+from mlmg_lang.source import Source, Span
 
 
 class OneSecond:
@@ -79,7 +79,28 @@ def test_after_an_edit_it_is_still_known_how_the_commands_went_that_it_has_left_
     names = Names(reference)
     told = foreseen(before.resolved, forecast(before.resolved, names, OneSecond()), names)
     now = analyse_again(before, Source("Idle_01\n\nWalk_02 for 30 sec\nTalk_01\n"))
-    left = still_foreseen(told, before, now)
-    assert [now.source.slice(span) for span in left.goings] == ["Idle_01", "Talk_01"]
-    assert [one.arrives_s for one in left.goings.values()] == [0, 5]
-    assert still_foreseen(told, before, analyse(now.source, reference)).goings == {}
+    left = Remembered(told, before.made).of(now.made)
+    goings = {one: left.going(place(now.source.text, one)) for one in ("Idle_01", "Walk_02 for 30 sec", "Talk_01")}
+    arrivals = {one: None if going is None else going.arrives_s for one, going in goings.items()}
+    assert arrivals == {"Idle_01": 0, "Walk_02 for 30 sec": None, "Talk_01": 5}
+    assert left.going(Span(0, 3)) is None
+    afresh = Remembered(told, before.made).of(analyse(now.source, reference).made)
+    assert {one: afresh.going(place(now.source.text, one)) for one in goings} == goings
+
+
+def test_between_two_edits_it_is_still_known_of_what_has_not_been_read_again(reference: Catalog) -> None:
+    before = analyse(Source("Idle_01\nWalk_01\n\nIdle_02\n\nTalk_01\n"), reference)
+    assert before.resolved is not None
+    names = Names(reference)
+    told = foreseen(before.resolved, forecast(before.resolved, names, OneSecond()), names)
+    once = analyse_again(before, Source("Idle_01\nWlak_01\n\nIdle_02\n\nTalk_01\n"))
+    now = analyse_again(once, Source("Idle_01\nWlak_01\n\nIdle_02\n\nTlak_01\n"))
+    assert now.found.wrong
+    left = Remembered(told, before.made).of(now.made)
+    known = {one: left.going(place(now.source.text, one)) for one in ("Idle_01", "Wlak_01", "Idle_02", "Tlak_01")}
+    assert [one for one, going in known.items() if going is not None] == ["Idle_01", "Idle_02"]
+
+
+def place(text: str, part: str) -> Span:
+    """Return where a part of a text is."""
+    return Span(text.index(part), text.index(part) + len(part))
