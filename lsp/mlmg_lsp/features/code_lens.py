@@ -35,13 +35,12 @@ class _Offered:
 
 def get_ahead(snapshot: Snapshot) -> None:
     """Find out what takes long of a text the first time."""
-    if lenses.can_be_played(snapshot.analysis):
-        _parts(snapshot)
+    _parts(snapshot)
 
 
 def code_lens(snapshot: Snapshot, _params: types.CodeLensParams) -> Written:
     """Return what can be done; where it is done by `execute_command`."""
-    parts = _parts(snapshot) if lenses.can_be_played(snapshot.analysis) else []
+    parts = _parts(snapshot)
     rows = list(map(attrgetter("rows"), parts))
     if all(one is NO_ANSWER for one in rows):
         return written([])
@@ -53,7 +52,7 @@ def code_lens(snapshot: Snapshot, _params: types.CodeLensParams) -> Written:
 def _parts(snapshot: Snapshot) -> list[_Offered]:
     kept = {(id(one.piece), id(one.played)): one for one in snapshot.kept.get("lenses", ())}
     made = snapshot.analysis.ready
-    pieces = zip(made.pieces, made.played, pairwise(made.places.starts), strict=True)
+    pieces = zip(made.pieces, made.played, pairwise(made.places.starts), strict=False)  # without a library, none plays
     parts = [
         kept.get((id(piece), id(played))) or _offered(snapshot, piece, played, made.source.text[slice(*at)])
         for piece, played, at in pieces

@@ -8,6 +8,7 @@ from enum import StrEnum
 
 from mlmg_lang.analysis import Analysis
 from mlmg_lang.blocks import Statement, WholeBlock
+from mlmg_lang.diagnostics import has_errors
 from mlmg_lang.parsing import syntax
 from mlmg_lang.planning import resolved
 from mlmg_lang.source import Span
@@ -41,19 +42,13 @@ class Lens:
 def lenses(analysis: Analysis) -> tuple[Lens, ...]:
     """Return what can be done, in the order of the text: play and explain the script, see the candidates of commands.
 
-    Only of a script without mistakes that a library is known for; of others there is nothing that could be played.
+    Without a library there is nothing that could be played. In a script with mistakes, what is sound has lenses too, so
+    that lines do not jump about while one is written: its candidates go with whatever broken lines may come to.
     """
-    if not can_be_played(analysis):
-        return ()
     made = analysis.ready
     parts = zip(made.pieces, made.played, made.places.starts, strict=False)
     found = [_moved(lens, start) for piece, played, start in parts for lens in piece_lenses(piece, played.statements)]
     return (*of_script(), *found) if found else ()
-
-
-def can_be_played(analysis: Analysis) -> bool:
-    """Return whether there may be lenses."""
-    return analysis.question.catalog is not None and not analysis.found.wrong
 
 
 def of_script() -> tuple[Lens, Lens]:
@@ -77,7 +72,7 @@ def _candidates(piece: Statement, titles: Mapping[Span, str]) -> Iterator[Lens]:
     start = 0
     for line in piece.lines if isinstance(piece, WholeBlock) else (piece,):
         further = start - line.address
-        for command in _written(line.items):
+        for command in () if has_errors(line.told) else _written(line.items):
             if command.span in titles:
                 span = Span(command.span.start + further, command.span.end + further)
                 yield Lens(span, titles[command.span], Deed.CANDIDATES, span)

@@ -41,6 +41,16 @@ def test_where_no_command_can_be_played_nothing_is_offered(text: str, reference:
     assert offered(text, reference) == []
 
 
+@pytest.mark.parametrize("broken", ["WLAK", "IDLE with", "WALK for", "Upper-Body Upper-Body", "("])
+def test_around_a_mistake_what_is_sound_is_offered_still(broken: str, reference: Catalog) -> None:
+    assert offered(f"IDLE\n{broken}\nX\nlet X = TALK\n", reference) == [
+        "1 play: play to BVH",
+        "1 explain: explain",
+        "1 candidates: 4 candidates on Full-Body <IDLE>",
+        "3 candidates: 2 candidates on Full-Body <X>",
+    ]
+
+
 def test_without_a_library_nothing_is_offered() -> None:
     assert offered("WALK", None) == []
 
