@@ -133,6 +133,12 @@ class InPieces:
             serial=self.serial + 1,
         )
 
+    def using(self, gathered: Gathered) -> InPieces:
+        """Return it with other definitions, those of the files that it uses from the first address that is free."""
+        further = gathered.source.end - len(self.source.text) - 1
+        places = replace(self.places, files=range(self.room, self.room + further))
+        return replace(self, source=gathered.source, gathered=gathered, places=places, room=self.room + further + 1)
+
     def with_lines(self, lines: Chunks[Piece]) -> InPieces:
         """Return it with other lines; which blocks lie across them is not known yet."""
         return self.with_pieces(lines, lines)

@@ -306,7 +306,7 @@ def _edited(previous: Analysis, source: Source) -> Analysis | None:
     change = _read_again(before, source)
     if change is None:
         return None
-    change = _understood_again(before, change, question)
+    change = _understood_again(before, _defined_again(before, change, question.files), question)
     found = Found(_read(change.made))
     if _has_endless_mistakes(change.made) or _is_too_large(change.made):
         return None
@@ -326,9 +326,9 @@ def _is_too_large(made: InPieces) -> bool:
 
 
 def _read_again(before: InPieces, source: Source) -> Change | None:
-    """Return what an edit has changed, read but not understood; None if the script may use other files.
+    """Return what an edit has changed, read but not understood.
 
-    The same goes for signs that make comments of whatever stands between them, and for braces in too many others.
+    None where signs make comments of whatever stands between them, or braces stand in too many others.
     """
     from mlmg_lang.editing import Change, edit_between, reread, without_same
 
@@ -340,7 +340,7 @@ def _read_again(before: InPieces, source: Source) -> Change | None:
     first, new, end = without_same(before, spot, lines_of(size, spot.tokens, read, around, before.room))
     made = before.edited(source, before.lines.spliced(first, end, new), size)
     change = Change(made, first, len(new), end)
-    return _defined_again(before, _braced_again(before, change) if change.moves_braces(before) else change)
+    return _braced_again(before, change) if change.moves_braces(before) else change
 
 
 def _braced_again(before: InPieces, change: Change) -> Change | None:
@@ -359,25 +359,22 @@ def _braced_again(before: InPieces, change: Change) -> Change | None:
     return replace(change, made=made.with_lines(lines.replaced(found)), again=tuple(found))
 
 
-def _defined_again(before: InPieces, change: Change | None) -> Change | None:
-    """Return a change with the definitions of the script; None if it may use other files."""
+def _defined_again(before: InPieces, change: Change, files: Files) -> Change:
+    """Return a change with the definitions of the script."""
     from mlmg_lang.editing import changed_names
 
-    if change is None:
-        return None
-    lines = change.made.lines
+    made, lines = change.made, change.made.lines
     defining = [item for line in change.touching(before) for item in line.defining]
-    if not defining and not change.moves_braces(before):
-        return change
-    items = _defining(lines, lines)
-    moved = items.items if change.moves_braces(before) else ()
+    moved = lines.all("defining") if change.moves_braces(before) else ()
     if any(isinstance(item, Use) for item in (*defining, *moved)):
-        return None
-    if not defining:
+        alone = replace(made.source, used=())
+        made = made.using(gather(alone, _defining(lines, grouped(lines)), files, made.room))
+    elif defining:
+        made = replace(made, gathered=gather_with(_defining(lines, lines), before.gathered.used))
+    else:
         return change
-    gathered = gather_with(items, before.gathered.used)
-    names = changed_names(before.gathered.definitions, gathered.definitions)
-    return replace(change, made=replace(change.made, gathered=gathered), names=names)
+    names = changed_names(before.gathered.definitions, made.gathered.definitions)
+    return replace(change, made=made, names=names)
 
 
 def _understood_again(before: InPieces, change: Change, question: Question) -> Change:

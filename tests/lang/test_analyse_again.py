@@ -376,6 +376,15 @@ def test_an_edit_in_a_script_with_definitions_leaves_all_else_as_it_was(librarie
     assert n_kept(before, again) == len(before.ready.pieces) - 1
 
 
+def test_while_the_use_of_a_file_is_typed_only_what_uses_that_is_understood_again(libraries: Mapping[str, Any]) -> None:
+    library, text = libraries["reference"], "TALK for 2 sec\n" * 20 + "of_b for 1 sec\n"
+    analysis = analyse(Source(text), library, None, FILES)
+    for use in ("use\n", 'use "\n', 'use "a"\n', 'use "a.ms"\n', 'use "b.ms"\n', "\n"):
+        again = check(analysis, use + text, library)
+        assert n_kept(analysis, again) >= 19
+        analysis = again
+
+
 def test_the_edit_of_a_definition_changes_what_uses_it_and_no_more(libraries: Mapping[str, Any]) -> None:
     text = (
         "let x = WALK\nlet z = not x\n"

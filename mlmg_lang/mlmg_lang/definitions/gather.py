@@ -8,6 +8,7 @@ from typing import Protocol
 
 from mlmg_lang.definitions.parameters import Kind, Kinds, Signature, signatures
 from mlmg_lang.diagnostics import Diagnostic, Note
+from mlmg_lang.moving import by, moved
 from mlmg_lang.parsing import syntax
 from mlmg_lang.parsing.parse import parse
 from mlmg_lang.parsing.tokenize import tokenize
@@ -96,14 +97,15 @@ class Gathered:
         return self.used.source
 
 
-def gather(source: Source, script: syntax.Script, files: Files) -> Gathered:
+def gather(source: Source, script: syntax.Script, files: Files, base: int | None = None) -> Gathered:
     """Return the definitions that a script can use. Whatever it says, this does not fail.
 
     Parameters
     ----------
     source : with files, if there are any, whose definitions can be used without saying so.
+    base : where places in the files begin that it uses, the first in all of them; None if that is behind the source.
     """
-    opener = _Opener(source, files)
+    opener = _Opener(source, files, source.end if base is None else base)
     opener.use_given()
     n_earlier = len(opener.scripts)
     opener.use(script, source.name, ())
@@ -141,10 +143,11 @@ def _defined(script: syntax.Script, lets: dict[str, syntax.Let]) -> Iterator[Dia
 
 @dataclass(slots=True)
 class _Opener:
-    """Opens the files that are used; for its values see `Used`."""
+    """Opens the files that are used; for its values see `Used`. `base`: where places in the next begin."""
 
     source: Source
     files: Files
+    base: int
     complete: bool = True
     scripts: list[syntax.Script] = field(default_factory=list)
     diagnostics: list[Diagnostic] = field(default_factory=list)
@@ -181,9 +184,10 @@ class _Opener:
         elif len(self.source.used) >= MAX_FILES:
             self._refuse(use, "MS058", f"a script may use at most {MAX_FILES} files", None)
         elif file.name not in {other.name for other in self.source.used}:
-            base = self.source.end
+            alone = Source(file.text, file.name)
+            parsed = moved(parse(alone, tokenize(alone)), by(self.base))
             self.source = replace(self.source, used=(*self.source.used, file))
-            parsed = parse(self.source, tokenize(self.source, base), base)
+            self.base += len(file.text) + 1
             self.diagnostics += parsed.diagnostics
             self.scripts.append(parsed.script)
             self.use(parsed.script, file.name, users)
