@@ -73,11 +73,12 @@ class Chunks(Sequence[T_co]):
         if isinstance(at, slice):
             first, end, _ = at.indices(len(self))
             return tuple(chain.from_iterable(self._stretches(first, end)))
-        number = at if at >= 0 else len(self) + at
-        if not 0 <= number < len(self):
-            raise IndexError(f"there is no {at} in {len(self)} values")
-        chunk = self._chunk_of(number)
-        return self._chunks[chunk].values[number - self._starts[chunk]]
+        starts = self._starts
+        number = at if at >= 0 else starts[-1] + at
+        if not 0 <= number < starts[-1]:
+            raise IndexError(f"there is no {at} in {starts[-1]} values")
+        chunk = bisect_right(starts, number) - 1
+        return self._chunks[chunk].values[number - starts[chunk]]
 
     def _chunk_of(self, number: int) -> int:
         return bisect_right(self._starts, number) - 1
@@ -199,13 +200,14 @@ class Sums(Sequence[int]):
         if isinstance(at, slice):
             first, end, _ = at.indices(len(self))
             return list(chain.from_iterable(self._stretches(first, end)))
-        number = at if at >= 0 else len(self) + at
-        if not 0 <= number < len(self):
-            raise IndexError(f"there is no {at} in {len(self)} sums")
-        chunk = bisect_right(self._starts, number) - 1
+        starts = self._starts
+        number = at if at >= 0 else starts[-1] + 1 + at
+        if not 0 <= number <= starts[-1]:
+            raise IndexError(f"there is no {at} in {starts[-1] + 1} sums")
+        chunk = bisect_right(starts, number) - 1
         if chunk == len(self._sums):
             return self._before[-1]
-        return self._before[chunk] + self._sums[chunk][number - self._starts[chunk]]
+        return self._before[chunk] + self._sums[chunk][number - starts[chunk]]
 
     def _stretches(self, first: int, end: int) -> Iterator[Iterable[int]]:
         while first < min(end, self._starts[-1]):
