@@ -15,6 +15,7 @@ from mlmg_lang.definitions.gather import Definitions
 from mlmg_lang.parsing.cutting import Balance, balance, cut
 from mlmg_lang.parsing.layout import Close
 from mlmg_lang.parsing.nesting import Around, after
+from mlmg_lang.parsing.parse import MAX_MISTAKES
 from mlmg_lang.parsing.tokenize import tokenize
 from mlmg_lang.parsing.tokens import Token
 from mlmg_lang.pieces import Piece, read_in
@@ -57,13 +58,14 @@ class Spot:
 
     Attributes
     ----------
-    around : the braces around it.
+    around : the braces around it. n_before : how many mistakes in texts are told before it.
     first, end : the pieces that it was before: the first, and the one behind the last.
     """
 
     source: Source
     tokens: tuple[Token, ...]
     around: Around
+    n_before: int
     first: int
     end: int
 
@@ -84,7 +86,7 @@ def reread(before: InPieces, source: Source, edit: Edit) -> Spot:
         if wider is None:
             break
         first, end = wider.start, wider.stop
-    return Spot(spot, tokens, around, first, end)
+    return Spot(spot, tokens, around, lines.sums("n_mistakes")[first], first, end)
 
 
 def without_same(before: InPieces, spot: Spot, new: Sequence[Piece]) -> tuple[int, Sequence[Piece], int]:
@@ -112,7 +114,8 @@ def _n_same(old: Iterable[tuple[Piece, str]], new: Iterable[tuple[Piece, str]]) 
 
 
 def _says_the_same(old: tuple[Piece, str], new: tuple[Piece, str]) -> bool:
-    return old[1] == new[1] and (old[0].around == new[0].around or not old[0].depends)
+    same_braces = old[0].around == new[0].around or not old[0].depends
+    return old[1] == new[1] and same_braces and old[0].is_read_behind(new[0].counted.start)
 
 
 def braces_before(lines: Chunks[Piece], number: int) -> Around:
@@ -142,28 +145,53 @@ class CutElsewhere(Exception):
     """In other braces a script is cut into other pieces: one of them is no brace any longer, or there are too many."""
 
 
-def in_other_braces(
-    lines: Chunks[Piece], first: int, around: Around, text_of: Callable[[int], str]
+@dataclass(frozen=True, slots=True)
+class Behind:
+    """What a line needs to know of those before it: the braces around it, and how many mistakes have been told."""
+
+    around: Around
+    n_mistakes: int
+
+
+def behind(lines: Chunks[Piece], number: int) -> Behind:
+    """Return what a line needs to know of those before it."""
+    return Behind(braces_before(lines, number), lines.sums("n_mistakes")[number])
+
+
+def read_behind(
+    lines: Chunks[Piece], first: int, was: Behind, now: Behind, text_of: Callable[[int], str]
 ) -> Iterator[tuple[int, Piece]]:
-    """Yield the lines from one on that may say something else in the braces around them now, read again.
+    """Yield the lines from one on that may say something else behind what stands before them now, read again.
 
     Parameters
     ----------
-    around : the braces around the first. text_of : gives the text of a line.
+    was, now : what the first was behind, and is. text_of : gives the text of a line.
 
     Raises
     ------
     CutElsewhere
-        If they are no pieces in these.
+        If they are no pieces any longer.
     """
-    for at in lines.where("depends", first):
-        if lines[at].around == around:
+    around, n_now, further = now.around, now.n_mistakes, now.n_mistakes - was.n_mistakes
+    at = first
+    while True:
+        if n_now < MAX_MISTAKES:  # others say the same wherever something is read
+            at = next(lines.where("depends", at), len(lines))
+        if at == len(lines):
             return
-        line = read_in(lines[at], text_of(at), around)
-        if line is None:
-            raise CutElsewhere
-        yield at, line
-        around = after(around, line.marks)
+        line = again = lines[at]
+        if line.depends and not further and line.around == around:
+            return
+        if not line.is_read_behind(n_now) or (line.depends and line.around != around):
+            read = read_in(line, text_of(at), around, n_now)
+            if read is None:
+                raise CutElsewhere
+            again = read
+            yield at, again
+            further += again.n_mistakes - line.n_mistakes
+        n_now += again.n_mistakes
+        around = after(around, again.marks)
+        at += 1
 
 
 def _wider(lines: Chunks[Piece], spot: range, new: Balance) -> range | None:
@@ -259,7 +287,10 @@ class Change:
         """Yield the lines that have been read again, and those before the edit that they are in place of."""
         yield from before.lines[self.first : self.end]
         yield from self.made.lines[self.first : self.first + self.n_new]
-        yield from (self.made.lines[at] for at in self.again)
+        further = self.first + self.n_new - self.end
+        for at in self.again:
+            yield before.lines[at - further]
+            yield self.made.lines[at]
 
     def moves_braces(self, before: InPieces) -> bool:
         """Return whether there may be other braces around the lines behind the edit."""

@@ -301,23 +301,18 @@ def _sorted(diagnostics: tuple[Diagnostic, ...]) -> tuple[Diagnostic, ...]:
 def _edited(previous: Analysis, source: Source) -> Analysis | None:
     """Return the analysis after an edit; None if all has to be analysed afresh."""
     question, before = previous.question, previous.ready
-    if source.used or _has_endless_mistakes(previous.made) or len(source.text) >= MAX_TOKENS:
+    if source.used or len(source.text) >= MAX_TOKENS:
         return None
     change = _read_again(before, source)
     if change is None:
         return None
     change = _understood_again(before, _defined_again(before, change, question.files), question)
     found = Found(_read(change.made))
-    if _has_endless_mistakes(change.made) or _is_too_large(change.made):
+    if _is_too_large(change.made):
         return None
     if question.names is None or question.catalog is None:
         return _told(question, found, change.made)
     return _replayed((question.names, question.catalog), question, found, before, change)
-
-
-def _has_endless_mistakes(made: InPieces) -> bool:
-    """Return whether not all of the text may have been read, which depends on all before it."""
-    return len(tuple(made.lines.all("misread"))) >= MAX_MISTAKES
 
 
 def _is_too_large(made: InPieces) -> bool:
@@ -334,26 +329,26 @@ def _read_again(before: InPieces, source: Source) -> Change | None:
 
     spot = reread(before, source, edit_between(before.source.text, source.text))
     around, size = spot.around, len(spot.source.text)
-    read = read_marks(spot.source, spot.tokens, around)
+    read = read_marks(spot.source, spot.tokens, around, spot.n_before)
     if opens_or_closes(requoted(spot.tokens)) or read.deep:
         return None
-    first, new, end = without_same(before, spot, lines_of(size, spot.tokens, read, around, before.room))
+    again = lines_of(size, spot.tokens, read, around, spot.n_before, before.room)
+    first, new, end = without_same(before, spot, again)
     made = before.edited(source, before.lines.spliced(first, end, new), size)
-    change = Change(made, first, len(new), end)
-    return _braced_again(before, change) if change.moves_braces(before) else change
+    return _read_behind(before, Change(made, first, len(new), end))
 
 
-def _braced_again(before: InPieces, change: Change) -> Change | None:
+def _read_behind(before: InPieces, change: Change) -> Change | None:
     """Return a change with what it makes of the lines behind it; None where these are cut elsewhere."""
-    from mlmg_lang.editing import CutElsewhere, braces_before, in_other_braces
+    from mlmg_lang.editing import CutElsewhere, behind, read_behind
 
-    made, behind = change.made, change.first + change.n_new
-    now = braces_before(made.lines, behind)
-    if now == braces_before(before.lines, change.end):
+    made, end = change.made, change.first + change.n_new
+    was, now = behind(before.lines, change.end), behind(made.lines, end)
+    if now == was:
         return change
-    starts, lines = made.places.starts, made.lines
+    starts, lines, text = made.places.starts, made.lines, made.source.text
     try:
-        found = dict(in_other_braces(lines, behind, now, lambda at: made.source.text[starts[at] : starts[at + 1]]))
+        found = dict(read_behind(lines, end, was, now, lambda at: text[starts[at] : starts[at + 1]]))
     except CutElsewhere:
         return None
     return replace(change, made=made.with_lines(lines.replaced(found)), again=tuple(found))
@@ -390,7 +385,8 @@ def _understood_again(before: InPieces, change: Change, question: Question) -> C
     made = change.made
     if made.gathered is not before.gathered:
         made = replace(made, defined=reader.defined())
-    if made.gathered is not before.gathered or change.moves_braces(before) or not change.uses_the_same(before):
+    changed = made.gathered is not before.gathered or change.moves_braces(before) or change.again
+    if changed or not change.uses_the_same(before):
         made = replace(made, unused=tuple(_unused(made)))
     return replace(change, made=made)
 

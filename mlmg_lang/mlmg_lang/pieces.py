@@ -20,7 +20,7 @@ from mlmg_lang.moving import by, moved
 from mlmg_lang.parsing import syntax
 from mlmg_lang.parsing.cutting import Balance, balance, cut
 from mlmg_lang.parsing.nesting import NO_STATEMENT, Around, Mark, after, folded
-from mlmg_lang.parsing.parse import Read, read_marks
+from mlmg_lang.parsing.parse import MAX_MISTAKES, Read, counted, read_marks
 from mlmg_lang.parsing.structure import check_structure
 from mlmg_lang.parsing.tokenize import tokenize
 from mlmg_lang.parsing.tokens import Token
@@ -47,6 +47,7 @@ class Piece:
     marks : its items, with what is in it of blocks that lie across it; none if there are no such blocks.
     around : the braces that it was read in; of one that says the same in all, perhaps long ago.
     misread : what is wrong with its text.
+    counted : how many mistakes in texts were told before it when it was read, and with it; see `counted`.
     expanded : its items with what is defined put in. n_nodes : how large that has made them.
     statements : none without a library.
     said : what is wrong with what it means.
@@ -61,6 +62,7 @@ class Piece:
     marks: tuple[Mark, ...]
     around: Around
     misread: tuple[Diagnostic, ...]
+    counted: range
     expanded: tuple[syntax.Item, ...] = ()
     n_nodes: int = 0
     statements: tuple[typed.Statement, ...] = ()
@@ -75,7 +77,18 @@ class Piece:
     def depends(self) -> bool:
         """Return whether it may say something else in other braces."""
         blocks = (isinstance(item, syntax.Repeat | syntax.Choose) for item in self.items)
-        return bool(self.misread or self.marks) or any(blocks)
+        # What is not told as too much is wrong may be that it has a brace without a partner.
+        return bool(self.misread or self.marks) or self.counted.stop >= MAX_MISTAKES or any(blocks)
+
+    @property
+    def n_mistakes(self) -> int:
+        """Return how many mistakes in its text are told; see `counted`."""
+        return len(self.counted)
+
+    def is_read_behind(self, n_mistakes: int) -> bool:
+        """Return whether it says what it does behind so many mistakes too: where some are left, as many are told."""
+        first = self.counted.start
+        return first == n_mistakes or max(first, n_mistakes) + len(self.counted) < MAX_MISTAKES
 
     @cached_property
     def n_ends(self) -> int:
@@ -141,13 +154,15 @@ def _defines(item: syntax.Item) -> bool:
     return any(isinstance(node, syntax.Let | syntax.Use | syntax.BrokenDefinition) for node in nodes)
 
 
-def lines_of(size: int, tokens: Sequence[Token], read: Read, around: Around = (), address: int = 0) -> list[Piece]:
+def lines_of(
+    size: int, tokens: Sequence[Token], read: Read, around: Around = (), n_before: int = 0, address: int = 0
+) -> list[Piece]:
     """Return the pieces of a text that no block lies across, read but not understood.
 
     Parameters
     ----------
     size : of the text, in code points.
-    around : the braces that it stands in.
+    around : the braces that it stands in. n_before : how many mistakes have been told before it.
     address : of its beginning; in what is given, that is 0.
     """
     bounds = [0, *(() if read.deep else cut(tokens, len(around)).starts), size]
@@ -158,32 +173,43 @@ def lines_of(size: int, tokens: Sequence[Token], read: Read, around: Around = ()
     found = []
     parts = zip(pairwise(bounds), _split(tokens, bounds), _split(read.marks, bounds), wrong, strict=True)
     for (start, end), own, marks, told in parts:
-        piece = _piece(range(start + address, end + address), around, *_put((own, marks, tuple(told)), address))
+        count = counted(n_before, told)
+        place = range(start + address, end + address)
+        piece = _piece(place, around, count, *_put((own, marks, tuple(told)), address))
         found.append(piece)
+        n_before = count.stop
         around = after(around, piece.marks)
     return found
 
 
-def read_in(line: Piece, text: str, around: Around) -> Piece | None:
-    """Return a piece as it is in other braces; None if they are too many, or it is cut elsewhere then."""
+def read_in(line: Piece, text: str, around: Around, n_before: int) -> Piece | None:
+    """Return a piece as it is in other braces, or behind other mistakes; None if it is cut elsewhere then.
+
+    The same goes for braces that are too many.
+    """
     source = Source(text)
     tokens = tokenize(source)
-    read = read_marks(source, tokens, around)
-    again, *others = lines_of(len(text), tokens, read, around, line.address)
+    read = read_marks(source, tokens, around, n_before)
+    again, *others = lines_of(len(text), tokens, read, around, n_before, line.address)
     return None if read.deep or others or again.balance != line.balance else again
 
 
 def _piece(
-    at: range, around: Around, tokens: tuple[Token, ...], marks: tuple[Mark, ...], misread: tuple[Diagnostic, ...]
+    at: range,
+    around: Around,
+    count: range,
+    tokens: tuple[Token, ...],
+    marks: tuple[Mark, ...],
+    misread: tuple[Diagnostic, ...],
 ) -> Piece:
     """Return a piece that has these addresses."""
     items = tuple(mark for mark in marks if not isinstance(mark, NO_STATEMENT))
     if len(items) == len(marks):
-        return Piece(len(at), at.start, tokens, items, (), around, misread)
+        return Piece(len(at), at.start, tokens, items, (), around, misread, count)
     marks, wrong = folded(marks)
     items = tuple(mark for mark in marks if not isinstance(mark, NO_STATEMENT))
     marks = () if len(items) == len(marks) else marks
-    return Piece(len(at), at.start, tokens, items, marks, around, (*misread, *wrong))
+    return Piece(len(at), at.start, tokens, items, marks, around, (*misread, *wrong), count)
 
 
 def _put(values: T, address: int) -> T:

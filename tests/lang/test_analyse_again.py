@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import random
 from collections.abc import Callable, Mapping
 from itertools import pairwise
 from pathlib import Path
@@ -306,12 +307,31 @@ def test_of_too_many_mistakes_the_same_are_told_as_afresh(
     lines = (*LINES, *mistaken, *mistaken, *DEFINING)
     text = "".join(data.draw(st.lists(st.sampled_from(lines), max_size=20)))
     with pytest.MonkeyPatch.context() as patch:
-        for module in ("parsing.parse", "planning.plan", "front_end"):
+        for module in ("parsing.parse", "planning.plan", "pieces", "editing", "front_end"):
             patch.setattr(f"mlmg_lang.{module}.MAX_MISTAKES", most)
         analysis = analyse(Source(text), libraries[name], None, FILES)
         for edit in data.draw(line_edits(*lines)):
             text = with_other_lines(text, edit)
             analysis = check(analysis, text, libraries[name])
+
+
+@pytest.mark.parametrize(("mistaken", "n_lines"), [(MISNAMED, 400), (MISWRITTEN, 500)])
+def test_around_as_many_mistakes_as_are_told_all_is_as_if_analysed_afresh(
+    libraries: Mapping[str, Any], mistaken: tuple[str, ...], n_lines: int
+) -> None:
+    library, draw = libraries["reference"], random.Random(0)
+    text = "".join(draw.choice(mistaken if draw.random() < 0.4 else LINES) for _ in range(n_lines))
+    analysis = analyse(Source(text), library, None, FILES)
+    are_too_many = set()
+    for at in range(6):
+        n_new = draw.choice((60, 90))
+        added = draw.choices(mistaken if at % 2 else LINES, k=n_new)
+        text = with_other_lines(text, (draw.randrange(60), n_new, "".join(added)))
+        analysis = check(analysis, text, library)
+        text = with_other_lines(text, (draw.randrange(400), 1, draw.choice(mistaken)))
+        analysis = check(analysis, text, library)
+        are_too_many.add(any(one.code == "MS006" for one in analysis.diagnostics))
+    assert are_too_many == {False, True}
 
 
 def test_an_edit_of_a_script_with_too_many_mistakes_leaves_all_else_as_it_was(libraries: Mapping[str, Any]) -> None:
@@ -323,6 +343,17 @@ def test_an_edit_of_a_script_with_too_many_mistakes_leaves_all_else_as_it_was(li
     assert n_kept(before, again) == len(before.ready.pieces) - 1
     mended = check(again, text.replace("WLAK", "WALK", 1), library)
     assert n_kept(again, mended) == len(before.ready.pieces) - 3
+    check(mended, text, library)
+
+
+def test_a_mistake_less_in_a_script_of_which_the_rest_is_not_read_has_some_more_of_it_read(
+    libraries: Mapping[str, Any],
+) -> None:
+    library, text = libraries["reference"], "WALK for 2 sec\nIDLE for\n" * 300
+    before = analyse(Source(text), library)
+    assert [one.code for one in before.diagnostics] == 200 * ["MS017"] + ["MS006"]
+    mended = check(before, text.replace("for\n", "once\n", 1), library)
+    assert n_kept(before, mended) == len(before.ready.pieces) - 5
     check(mended, text, library)
 
 

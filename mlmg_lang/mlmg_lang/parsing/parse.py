@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from bisect import bisect_left
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import islice
@@ -69,44 +70,73 @@ def end_of(tokens: Sequence[Token]) -> int:
     return next((token.span.end for token in reversed(tokens) if token.type not in ("NEWLINE", "COMMENT")), 0)
 
 
-def read_marks(source: Source, tokens: Sequence[Token], around: Around = ()) -> Read:
+def read_marks(source: Source, tokens: Sequence[Token], around: Around = (), n_before: int = 0) -> Read:
     """Return what some text says, as far as that does not depend on what stands before and after it.
 
     Parameters
     ----------
     around : the braces that it stands in.
+    n_before : how many mistakes have been told before it, that nothing more is read too; see `counted`.
     """
-    reader = _Reader(source)
     last = tokens[-1] if len(tokens) == MAX_TOKENS else None
+    left = max(MAX_MISTAKES - n_before, 0)
     tokens = requoted(tokens)
-    reader.diagnostics += islice(lookalikes(tokens, source), MAX_MISTAKES)
+    wrong = list(islice(lookalikes(tokens, source), left))
     tokens = join_quoted(as_meant(tokens), source)
-    reader.diagnostics += islice(check_tokens(tokens), MAX_MISTAKES)
+    wrong += islice(check_tokens(tokens), left)
     tokens = without_lone(tokens)
-    reader.diagnostics += islice(swapped(tokens), MAX_MISTAKES)
+    wrong += islice(swapped(tokens), left)
     tokens = in_order(tokens)
-    reader.diagnostics += islice(stray_signs(tokens, len(around)), MAX_MISTAKES)
+    wrong += islice(stray_signs(tokens, len(around)), left)
     marked = mark(without_strays(tokens, len(around)), [braces.bars for braces in around])
-    reader.diagnostics += marked.diagnostics
-    del reader.diagnostics[MAX_MISTAKES:]
-    if last is not None:
-        reader.cut_off(last)
+    wrong += islice(marked.diagnostics, left)
+    reader = _Reader(source, sorted(wrong, key=_start), n_before)
     marks = tuple(reader.marks(marked.marks, around))
-    return Read(marks, tuple(reader.diagnostics), marked.deep)
+    told = reader.told()
+    return Read(marks, told if last is None else (*told, _cut_off(last)), marked.deep)
+
+
+def counted(n_before: int, told: Sequence[Diagnostic]) -> range:
+    """Return how many mistakes have been told before and behind some text in which these are told.
+
+    At most `MAX_MISTAKES` are counted, and one more once it has been said that nothing is read any more.
+    """
+    ends = n_before > MAX_MISTAKES or any(one.code == "MS006" for one in told)
+    return range(n_before, MAX_MISTAKES + 1 if ends else min(n_before + len(told), MAX_MISTAKES))
+
+
+def _start(one: Diagnostic) -> int:
+    assert one.span is not None
+    return one.span.start
+
+
+def _cut_off(last: Token) -> Diagnostic:
+    """Say that there is more text than is read."""
+    message = f"a script may have at most {MAX_TOKENS:,} words and signs; what comes after this is not read"
+    return Diagnostic("MS007", message, last.span, "leave some of it to another script")
 
 
 class _Reader:
     """Makes nodes of lines and what stands before braces, and collects what is wrong."""
 
-    def __init__(self, source: Source) -> None:
+    def __init__(self, source: Source, signs: Sequence[Diagnostic], n_before: int) -> None:
+        """Take what is wrong with words and signs, whatever lines they are in, in the order of the text."""
         self.diagnostics: list[Diagnostic] = []
         self._source = source
         self._in_choose = False
+        self._signs, self._n_signs = signs, 0
+        self._n_before = n_before
+        self._ends = n_before > MAX_MISTAKES
 
-    def cut_off(self, last: Token) -> None:
-        """Say that there is more text than is read."""
-        message = f"a script may have at most {MAX_TOKENS:,} words and signs; what comes after this is not read"
-        self._say("MS007", message, last.span, "leave some of it to another script")
+    def told(self) -> tuple[Diagnostic, ...]:
+        """Return what is wrong, as far as there is not too much of it."""
+        self._tell_signs(len(self._signs))
+        return (*self._signs[: self._n_signs], *self.diagnostics)
+
+    def _tell_signs(self, end: int) -> None:
+        """Count the first signs, up to a number, as told, while that is not too many mistakes."""
+        room = MAX_MISTAKES - self._n_before - self._n_signs - len(self.diagnostics)
+        self._n_signs += max(min(end - self._n_signs, room), 0)
 
     def marks(self, marks: Iterable[layout.Mark], around: Around) -> Iterator[Mark]:
         """Yield the nodes of lines and of what stands before braces."""
@@ -153,8 +183,9 @@ class _Reader:
     ) -> tuple[tuple[syntax.Item, ...], syntax.RepeatHead | syntax.ChooseHead | None]:
         """Return what takes a brace; if nothing does, the statement that stands before it, if there is one."""
         if not opened.head:
-            message = "this `{` has no `repeat` or `choose` before it"
-            self._say("MS013", message, opened.brace, "take the braces out", Brace.NEEDLESS)
+            if not self._gives_up(opened.brace):
+                message = "this `{` has no `repeat` or `choose` before it"
+                self._say("MS013", message, opened.brace, "take the braces out", Brace.NEEDLESS)
             return (), None
         n_before = len(self.diagnostics)
         head = self._head(opened)
@@ -174,7 +205,8 @@ class _Reader:
 
     def _head(self, block: layout.Open) -> syntax.Line | syntax.Broken:
         """Return what stands before a brace, also if that is said as in other languages."""
-        if block.head[0].type in ("REPEAT", "CHOOSE"):
+        span = Span(block.head[0].span.start, block.head[-1].span.end)
+        if block.head[0].type in ("REPEAT", "CHOOSE") or self._gives_up(span):
             return self._read(block.head)
         from mlmg_lang.parsing.mistakes.blocks import other_head
 
@@ -184,15 +216,13 @@ class _Reader:
         self.diagnostics.append(mistake.diagnostic)
         if mistake.meant is not None:
             return self._read(mistake.meant)
-        span = Span(block.head[0].span.start, block.head[-1].span.end)
         whole = read(self._source, block.head) if block.head[0].type == "LET" else None
         return replace(whole, mended=True) if isinstance(whole, syntax.Let) else _broken(block.head, span)
 
     def _read(self, tokens: tuple[Token, ...]) -> syntax.Line | syntax.Broken:
         """Return the node of a line, mended as far as one can tell what was meant."""
         span = Span(tokens[0].span.start, tokens[-1].span.end)
-        if len(self.diagnostics) >= MAX_MISTAKES:
-            self._give_up(span)
+        if self._gives_up(span):
             return syntax.Broken(span)
         deep = _too_deep(tokens)
         if deep is not None:
@@ -241,10 +271,14 @@ class _Reader:
         self.diagnostics.append(mistake.diagnostic)
         return mistake.meant
 
-    def _give_up(self, span: Span) -> None:
-        if self.diagnostics[-1].code != "MS006":
+    def _gives_up(self, span: Span) -> bool:
+        """Return whether too many mistakes come before a place, and say it once."""
+        self._tell_signs(bisect_left(self._signs, span.start, key=_start))
+        if not self._ends and self._n_before + self._n_signs + len(self.diagnostics) >= MAX_MISTAKES:
+            self._ends = True
             message = f"more than {MAX_MISTAKES} mistakes; what comes after this is not read"
             self._say("MS006", message, span, "is this file a script?")
+        return self._ends
 
     def _say(self, code: str, message: str, span: Span, help_: str, brace: Brace | None = None) -> None:
         self.diagnostics.append(Diagnostic(code, message, span, help=help_, brace=brace))
