@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 import os
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Coroutine
 from contextlib import suppress
 from dataclasses import replace
 from functools import partial
@@ -350,7 +350,7 @@ class MotionScriptServer(LanguageServer):
         except Superseded as error:
             raise JsonRpcContentModified(str(error)) from None
 
-    def _soon(self, work: Any) -> asyncio.Task[Any]:
+    def _soon(self, work: Coroutine[Any, Any, Any]) -> asyncio.Task[Any]:
         """Begin some work that goes on by itself; a client that does not do as asked is no failure of it."""
 
         async def done() -> None:
@@ -360,6 +360,7 @@ class MotionScriptServer(LanguageServer):
         task = asyncio.ensure_future(done())
         self._tasks.add(task)
         task.add_done_callback(self._tasks.discard)
+        task.add_done_callback(lambda _: work.close())  # it may have been cancelled before it began
         return task
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import os
 import re
+import signal
 import sys
 from asyncio import StreamReader
 from collections.abc import Callable
@@ -61,10 +62,33 @@ async def _serve_pipes(build: Callable[[], Server], incoming: int, outgoing: Bin
             server.ended.set()
 
     server.connect(send, True)
+    told = _told_to_end(server.ended)
     # Nothing can interrupt a thread that waits for input; this one ends with the process.
     Thread(target=_feed, args=(incoming, reader, asyncio.get_running_loop()), daemon=True).start()
     await _until_ended(server, _read_all(server, reader))
+    if told:
+        return 128 + told[0]
     return DONE if server.orderly else WRONG_CONTENT
+
+
+def _told_to_end(ended: asyncio.Event) -> list[int]:
+    """Return where the signals are noted that the process is told to end by.
+
+    They set `ended` in a turn of the loop: an exception in the midst of something could come out anywhere, even where
+    Python can but write it down and go on.
+    """
+    told: list[int] = []
+
+    def end(number: int) -> None:
+        told.append(number)
+        ended.set()
+
+    for name in ("SIGTERM", "SIGHUP"):
+        number = getattr(signal, name, None)
+        if number is not None and signal.getsignal(number) is not signal.SIG_IGN:
+            with suppress(NotImplementedError):  # there is no such thing on Windows
+                asyncio.get_running_loop().add_signal_handler(number, end, number)
+    return told
 
 
 def _feed(incoming: int, reader: StreamReader, loop: asyncio.AbstractEventLoop) -> None:

@@ -395,3 +395,11 @@ def test_progress_is_shown_while_a_library_is_loaded(start):
 def test_only_this_machine_may_connect(start):
     for address in ("0.0.0.0:4711", "127.0.0.1", "127.0.0.1:99999"):
         assert start("--tcp", address).process.wait(30) == 2
+
+
+@pytest.mark.parametrize("uri", ["untitled:half-\ud800.ms", "file:///tmp/half-\ud800.ms"])
+def test_a_text_is_checked_whose_address_has_half_a_character(start, uri):
+    client = start()
+    client.initialize()
+    client.open(uri, "WLAK\n")
+    assert [one["code"] for one in client.diagnostics(uri)] == ["MS021"]

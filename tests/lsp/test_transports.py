@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+import signal
 import socket
 import struct
 import subprocess
@@ -122,3 +123,21 @@ def test_a_client_that_vanishes_while_it_is_answered_leaves_the_others_and_those
     for client in clients[2:]:
         assert told(client, "WLAK") == ["MS021"]
         client.close()
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="there are no such signals")
+@pytest.mark.parametrize(("name", "code"), [("SIGTERM", 143), ("SIGHUP", 129)])
+def test_a_signal_ends_it_without_a_word_whatever_it_is_at(name, code, tmp_path, demo_library):
+    program = [sys.executable, "-m", "mlmg_lang.commands.mlmg", "lsp", "--library", str(demo_library.path)]
+    pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
+    with subprocess.Popen(program, cwd=tmp_path, **pipes) as process:
+        item = {"uri": URI, "languageId": "motion-script", "version": 1, "text": "WALK for 2 sec\nIDLE\n" * 2_000}
+        for message in (*MESSAGES, {"method": "textDocument/didOpen", "params": {"textDocument": item}}):
+            body = json.dumps({"jsonrpc": "2.0", **message}).encode()
+            process.stdin.write(b"Content-Length: %d\r\n\r\n%b" % (len(body), body))
+        process.stdin.flush()
+        assert process.stdout.readline().startswith(b"Content-Length")
+        process.send_signal(getattr(signal, name))
+        process.stdout.read()
+        assert process.stderr.read() == b""
+        assert process.wait() == code
