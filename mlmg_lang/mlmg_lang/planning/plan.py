@@ -15,7 +15,9 @@ from mlmg_lang.parsing.nesting import Make
 from mlmg_lang.parsing.parse import MAX_MISTAKES
 from mlmg_lang.parsing.structure import is_sub, motion_mistakes
 from mlmg_lang.planning import typed
-from mlmg_lang.planning.binding import Scope, Unbound, graph_hints, graph_name, inexact, spelling_hints, unbound
+from mlmg_lang.planning.binding.hints import graph_hints, inexact, spelling_hints
+from mlmg_lang.planning.binding.scope import Scope, Unbound
+from mlmg_lang.planning.binding.unbound import graph_name, unbound
 from mlmg_lang.planning.names import Kind, Names
 from mlmg_lang.planning.select import select
 from mlmg_lang.source import Source, Span
