@@ -42,7 +42,16 @@ def test_the_extension_is_packaged_with_all_that_it_needs_and_nothing_else(tmp_p
     pages = {f"walkthrough/{page.name}" for page in (VSCODE / "walkthrough").glob("*.md")}
     grammars = {"syntaxes/motion-script.tmLanguage.json", "syntaxes/language-configuration.json"}
     wheels = {f"wheel/{wheel.name}" for wheel in (VSCODE / "wheel").glob("*.whl")}
-    assert names == {"package.json", "readme.md", "LICENSE.txt", "dist/extension.js", *pages, *grammars, *wheels}
+    assert names == {
+        "package.json",
+        "readme.md",
+        "LICENSE.txt",
+        "icon.png",
+        "dist/extension.js",
+        *pages,
+        *grammars,
+        *wheels,
+    }
 
 
 @needs_tools
