@@ -6,7 +6,7 @@ import asyncio
 import ctypes
 from collections.abc import Callable
 from contextlib import suppress
-from threading import Thread
+from threading import Lock, Thread, get_ident
 from typing import TypeVar
 
 T = TypeVar("T")
@@ -21,19 +21,23 @@ async def off_loop(work: Callable[[], T]) -> T:
     """
     loop = asyncio.get_running_loop()
     future: asyncio.Future[T] = loop.create_future()
+    doing = _Doing()
 
     def run() -> None:
         with suppress(SystemExit):  # nobody waits for it any more
-            settle = _settling(future, work)
+            doing.begin()
+            try:
+                settle = _settling(future, work)
+            finally:
+                doing.end()
             with suppress(RuntimeError):  # the loop has ended, and with it all who waited
                 loop.call_soon_threadsafe(settle)
 
-    thread = Thread(target=run, daemon=True)
-    thread.start()
+    Thread(target=run, daemon=True).start()
     try:
         return await future
     except asyncio.CancelledError:
-        _stop(thread)
+        doing.stop()
         raise
 
 
@@ -47,7 +51,30 @@ def _settling(future: asyncio.Future[T], work: Callable[[], T]) -> Callable[[], 
     return lambda: None if future.done() else future.set_result(result)
 
 
-def _stop(thread: Thread) -> None:
-    """End a thread by the one exception that threads end with without a word, wherever it hits them."""
-    if thread.ident is not None and thread.is_alive():
-        ctypes.pythonapi.PyThreadState_SetAsyncExc(ctypes.c_ulong(thread.ident), ctypes.py_object(SystemExit))
+class _Doing:
+    """Some work that a thread does: only while it does it can it be hit, not as the thread begins and ends."""
+
+    def __init__(self) -> None:
+        self._lock = Lock()
+        self._thread: int | None = None
+        self._is_stopped = False
+
+    def begin(self) -> None:
+        """Say in the thread that the work begins; raises `SystemExit` if nobody waits for it any more."""
+        with self._lock:
+            if self._is_stopped:
+                raise SystemExit
+            self._thread = get_ident()
+
+    def end(self) -> None:
+        """Say in the thread that the work is done."""
+        with self._lock:
+            self._thread = None
+
+    def stop(self) -> None:
+        """End the work by the one exception that threads end with without a word, wherever it hits it."""
+        with self._lock:
+            self._is_stopped = True
+            if self._thread is not None:
+                thread, error = ctypes.c_ulong(self._thread), ctypes.py_object(SystemExit)
+                ctypes.pythonapi.PyThreadState_SetAsyncExc(thread, error)

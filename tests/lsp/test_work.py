@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import asyncio
+import sys
+import threading
+from contextlib import suppress
 from threading import Event, Thread, current_thread
 
 import pytest
@@ -40,3 +43,32 @@ def test_work_that_nobody_waits_for_is_stopped():
     asyncio.run(given_up())
     threads[0].join(30)
     assert not threads[0].is_alive()
+
+
+def test_a_thread_ends_without_a_word_whenever_it_is_stopped(monkeypatch):
+    said: list[object] = []
+    monkeypatch.setattr(sys, "unraisablehook", lambda error: said.append(error.exc_value))
+    monkeypatch.setattr(threading, "excepthook", lambda error: said.append(error.exc_value))
+
+    async def given_up(n_turns: int) -> None:
+        task = asyncio.ensure_future(off_loop(lambda: None))
+        for _ in range(n_turns):
+            await asyncio.sleep(0)
+        task.cancel()
+        with suppress(asyncio.CancelledError):
+            await task
+
+    async def often() -> None:
+        for attempt in range(2_000):
+            await given_up(attempt % 5)
+
+    before = set(threading.enumerate())
+    interval = sys.getswitchinterval()
+    sys.setswitchinterval(1e-6)  # so that threads are stopped at all moments
+    try:
+        asyncio.run(often())
+    finally:
+        sys.setswitchinterval(interval)
+    for thread in set(threading.enumerate()) - before:
+        thread.join(30)
+    assert not said
