@@ -49,12 +49,14 @@ def run(arguments: argparse.Namespace) -> int:
     from mlmg_lsp.libraries import Shelf
     from mlmg_lsp.memory import give_back
     from mlmg_lsp.server import build_server
+    from mlmg_lsp.work import tell_unraisable
     from mlmg_lsp.workspace import Settings
 
     # It tells of each request that is cancelled, with a traceback.
     logging.getLogger("pygls").setLevel(logging.CRITICAL)
     # The thread that reads messages gets its turn sooner beside those that work.
     sys.setswitchinterval(0.001)
+    sys.unraisablehook = tell_unraisable
     give_back()
     shelf = Shelf()
     settings = Settings(arguments.library, tuple(arguments.allow_use), arguments.position_encoding)

@@ -187,7 +187,7 @@ class Documents:
     async def warm(self) -> None:
         """Get ready, once."""
         if self._warming is None:
-            self._warming = asyncio.ensure_future(off_loop(self._get_ready))
+            self._warming = asyncio.ensure_future(off_loop(self._get_ready, is_whole=True))
         await asyncio.shield(self._warming)
 
     async def snapshot(self, uri: str) -> Snapshot:

@@ -58,7 +58,7 @@ class Shelf:
         if self.has(path):
             return self._open[path]
         if path not in self._opening:
-            self._opening[path] = asyncio.ensure_future(off_loop(lambda: _opened(path)))
+            self._opening[path] = asyncio.ensure_future(off_loop(lambda: _opened(path), is_whole=True))
         try:
             # Others may wait for the same library when the one who asked first has gone.
             shelved = await asyncio.shield(self._opening[path])

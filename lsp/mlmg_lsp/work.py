@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import ctypes
+import sys
 from collections.abc import Callable
 from contextlib import suppress
 from threading import Lock, Thread, get_ident
@@ -12,12 +13,16 @@ from typing import TypeVar
 T = TypeVar("T")
 
 
-async def off_loop(work: Callable[[], T]) -> T:
+async def off_loop(work: Callable[[], T], is_whole: bool = False) -> T:
     """Return what some work comes to that is done in a thread of its own.
 
     Where the caller is cancelled, the work is interrupted between two steps of the interpreter: a thread that was only
     asked to stop could go on for seconds, and slow down all that is asked after it. As each thread does one piece of
-    work, none but that can be hit. What must not be interrupted, as the first import of a module, is to be shielded.
+    work, none but that can be hit.
+
+    Parameters
+    ----------
+    is_whole : whether it is not to be interrupted, as what imports a module for the first time.
     """
     loop = asyncio.get_running_loop()
     future: asyncio.Future[T] = loop.create_future()
@@ -37,8 +42,15 @@ async def off_loop(work: Callable[[], T]) -> T:
     try:
         return await future
     except asyncio.CancelledError:
-        doing.stop()
+        if not is_whole:
+            doing.stop()
         raise
+
+
+def tell_unraisable(error: sys.UnraisableHookArgs) -> None:
+    """Say, as Python does, what went wrong where nothing can be raised: but not that a thread was stopped there."""
+    if not isinstance(error.exc_value, SystemExit):
+        sys.__unraisablehook__(error)
 
 
 def _settling(future: asyncio.Future[T], work: Callable[[], T]) -> Callable[[], None]:

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import asyncio
+import gc
 import sys
 import threading
 from contextlib import suppress
 from threading import Event, Thread, current_thread
+from weakref import WeakSet
 
 import pytest
 
@@ -45,13 +47,23 @@ def test_work_that_nobody_waits_for_is_stopped():
     assert not threads[0].is_alive()
 
 
-def test_a_thread_ends_without_a_word_whenever_it_is_stopped(monkeypatch):
+def test_a_thread_ends_without_a_word_and_lets_go_of_its_work_whenever_it_is_stopped(monkeypatch):
     said: list[object] = []
+    works: WeakSet[object] = WeakSet()
     monkeypatch.setattr(sys, "unraisablehook", lambda error: said.append(error.exc_value))
     monkeypatch.setattr(threading, "excepthook", lambda error: said.append(error.exc_value))
 
+    class Work:
+        def __call__(self) -> None:
+            pass
+
+    def work() -> Work:
+        begun = Work()
+        works.add(begun)
+        return begun
+
     async def given_up(n_turns: int) -> None:
-        task = asyncio.ensure_future(off_loop(lambda: None))
+        task = asyncio.ensure_future(off_loop(work()))
         for _ in range(n_turns):
             await asyncio.sleep(0)
         task.cancel()
@@ -69,6 +81,8 @@ def test_a_thread_ends_without_a_word_whenever_it_is_stopped(monkeypatch):
         asyncio.run(often())
     finally:
         sys.setswitchinterval(interval)
-    for thread in set(threading.enumerate()) - before:
-        thread.join(30)
+    while left := set(threading.enumerate()) - before:
+        left.pop().join(30)
+    gc.collect()
     assert not said
+    assert not works
