@@ -5,6 +5,7 @@ from __future__ import annotations
 from bisect import bisect_right
 from collections.abc import Collection, Iterator, Sequence
 from dataclasses import replace
+from functools import partial
 from operator import attrgetter
 from typing import TYPE_CHECKING, Any
 
@@ -14,7 +15,6 @@ from mlmg_lang.catalog import Catalog
 from mlmg_lang.chunks import Chunks, all_of
 from mlmg_lang.definitions.expand import MAX_ALL_NODES, Expander, unused
 from mlmg_lang.definitions.gather import Files, Gathered, NoFiles, gather, gather_with
-from mlmg_lang.definitions.misnamed import Naming, told_once
 from mlmg_lang.diagnostics import Diagnostic
 from mlmg_lang.following import without_following
 from mlmg_lang.parsing.case import guess_case
@@ -26,7 +26,6 @@ from mlmg_lang.parsing.structure import check_definition, check_structure, mispl
 from mlmg_lang.parsing.syntax import Item, Let, Script, Use
 from mlmg_lang.parsing.tokenize import MAX_TOKENS, tokenize
 from mlmg_lang.parsing.tokens import Token
-from mlmg_lang.parsing.unbalanced import balanced
 from mlmg_lang.pieces import Piece, lines_of
 from mlmg_lang.places import Places
 from mlmg_lang.source import Source, Span
@@ -259,15 +258,22 @@ def _follows(one: Diagnostic, misread: Sequence[Piece]) -> bool:
 def _told(question: Question, found: Found, made: InPieces) -> Analysis:
     """Return the analysis, with what is told of what has been found."""
     complete = question.catalog is not None and not found.wrong
-    once = balanced(made.now(tuple(told_once(found.told, _naming(made)))), _braces(made), made.source)
-    told = _sorted(suppress(tuple(once), _speaking(made), made.source, complete))
+    told = _sorted(suppress(_each_once(found.told, made), _speaking(made), made.source, complete))
     return Analysis(told, question, found, made)
 
 
-def _naming(made: InPieces) -> Naming:
-    """Return what has to be known to tell whose name is wrong."""
+def _each_once(told: tuple[Diagnostic, ...], made: InPieces) -> tuple[Diagnostic, ...]:
+    """Return what is told, where it is in the text: what several of them tell of one slip only once."""
+    if not told:
+        return ()
+    # Imported here, as sound scripts, which are most, do not need them.
+    from mlmg_lang.definitions.misnamed import Naming, told_once
+    from mlmg_lang.parsing.unbalanced import balanced
+
     known = made.gathered.definitions
-    return Naming(made.addressed, made.places, known.lets.values(), known.unread, lambda name: _is_used(made, name))
+    is_used = partial(_is_used, made)
+    naming = Naming(made.addressed, made.places, known.lets.values(), known.unread, is_used)
+    return tuple(balanced(made.now(tuple(told_once(told, naming))), _braces(made), made.source))
 
 
 def _is_used(made: InPieces, name: str) -> bool:

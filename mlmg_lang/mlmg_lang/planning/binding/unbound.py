@@ -7,7 +7,6 @@ from collections.abc import Iterator, Sequence
 from mlmg_lang.parsing import syntax
 from mlmg_lang.parsing.case import is_shouted, wrong_case
 from mlmg_lang.parsing.structure import group_of, is_sub
-from mlmg_lang.planning.binding.pairs import Pair, meant_by
 from mlmg_lang.planning.binding.sayings import (
     before_parenthesis,
     graph_alone,
@@ -103,6 +102,9 @@ def _qualified(node: syntax.Qualified, scope: Scope) -> Iterator[Unbound]:
     if not wrong or wrong[0].diagnostic is None:
         yield from wrong or inner
         return
+    # Imported here, as most scripts have no such pair.
+    from mlmg_lang.planning.binding.pairs import Pair, meant_by
+
     pair = Pair(node, name, tuple(inner), scope)
     told = meant_by(pair)
     if told is not None:
