@@ -15,7 +15,7 @@ import argparse
 import sys
 from typing import get_args
 
-from mlmg_lang.commands.console import DONE, UsageError, add_use_option
+from mlmg_lang.commands.console import UsageError, add_use_option
 from mlmg_lsp.positions import Encoding
 
 _LOOPBACK = ("127.0.0.1", "localhost", "::1")
@@ -42,7 +42,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Serve until the client ends it; return 1 if it left without saying so."""
+    """Serve until the client, or a signal, ends it; return 1 if the client left without saying so."""
     import logging
 
     from mlmg_lsp import transports
@@ -68,8 +68,7 @@ def run(arguments: argparse.Namespace) -> int:
         return transports.serve_stdio(build)
     host, port = _address(arguments.tcp or arguments.ws)
     serve = transports.serve_ws if arguments.tcp is None else transports.serve_tcp
-    serve(build, host, port)
-    return DONE
+    return serve(build, host, port)
 
 
 def _address(text: str) -> tuple[str, int]:

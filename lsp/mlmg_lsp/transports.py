@@ -22,6 +22,8 @@ _LENGTH: Final = re.compile(rb"content-length:\s*(\d+)\s*", re.IGNORECASE)
 _MOST_READ: Final = 1 << 28
 """So long may a message be, in bytes; what announces a longer one is no message."""
 _CHUNK: Final = 1 << 16
+_CLOSING_S: Final = 2.0
+"""So long clients may take to read what is still to be read, when the process is told to end."""
 
 
 class Server(Protocol):
@@ -100,13 +102,15 @@ def _feed(incoming: int, reader: StreamReader, loop: asyncio.AbstractEventLoop) 
 
 
 async def _until_ended(server: Server, reading: object) -> None:
-    """Read messages until there are no more, or the client has said that it ends."""
+    """Read messages until there are no more, or the server is to end."""
     task = asyncio.ensure_future(reading)  # type: ignore[call-overload]
     ended = asyncio.ensure_future(server.ended.wait())
-    await asyncio.wait((task, ended), return_when=asyncio.FIRST_COMPLETED)
-    for one in (task, ended):
-        one.cancel()
-    server.leave()
+    try:
+        await asyncio.wait((task, ended), return_when=asyncio.FIRST_COMPLETED)
+    finally:  # also where the process is interrupted
+        for one in (task, ended):
+            one.cancel()
+        server.leave()
 
 
 async def _read_all(server: Server, reader: StreamReader) -> None:
@@ -139,28 +143,49 @@ async def _read_head(reader: StreamReader) -> int | None:
 # --- addresses ---
 
 
-def serve_tcp(build: Callable[[], Server], host: str, port: int) -> None:
-    """Serve all who connect, until interrupted."""
-    asyncio.run(_serve_tcp(build, host, port))
+def serve_tcp(build: Callable[[], Server], host: str, port: int) -> int:
+    """Serve all who connect until the process is told to end; return the exit code."""
+    return asyncio.run(_serve_tcp(build, host, port))
 
 
-async def _serve_tcp(build: Callable[[], Server], host: str, port: int) -> None:
-    async def client(reader: StreamReader, writer: asyncio.StreamWriter) -> None:
+async def _serve_tcp(build: Callable[[], Server], host: str, port: int) -> int:
+    clients: dict[asyncio.Task[None], Server] = {}
+
+    def begin(reader: StreamReader, writer: asyncio.StreamWriter) -> None:
         server = build()
-        server.connect(writer.write, True)
-        await _until_ended(server, _read_all(server, reader))
-        with suppress(ConnectionError):
-            await writer.drain()
-            writer.close()
+        task = asyncio.ensure_future(_serve_streams(server, reader, writer))
+        clients[task] = server
+        task.add_done_callback(clients.pop)
 
-    listening = await asyncio.start_server(client, host, port)
+    ended = asyncio.Event()
+    told = _told_to_end(ended)
+    listening = await asyncio.start_server(begin, host, port)
     _tell_where("tcp", listening.sockets[0].getsockname())
-    async with listening:
-        await listening.serve_forever()
+    try:
+        await ended.wait()
+    finally:  # also where the process is interrupted
+        listening.close()
+        for server in clients.values():
+            server.ended.set()
+        if clients:
+            await asyncio.wait(clients, timeout=_CLOSING_S)
+    return 128 + told[0]
 
 
-def serve_ws(build: Callable[[], Server], host: str, port: int) -> None:
-    """Serve all who connect by web sockets, until interrupted.
+async def _serve_streams(server: Server, reader: StreamReader, writer: asyncio.StreamWriter) -> None:
+    def send(message: bytes) -> None:
+        if not writer.is_closing():  # what is asked last may be answered when nobody is there any more
+            writer.write(message)
+
+    server.connect(send, True)
+    await _until_ended(server, _read_all(server, reader))
+    with suppress(OSError):  # it may have gone
+        writer.close()
+        await writer.wait_closed()
+
+
+def serve_ws(build: Callable[[], Server], host: str, port: int) -> int:
+    """Serve all who connect by web sockets until the process is told to end; return the exit code.
 
     Raises
     ------
@@ -171,10 +196,10 @@ def serve_ws(build: Callable[[], Server], host: str, port: int) -> None:
         import websockets  # noqa: F401
     except ImportError:
         raise UsageError('--ws needs web sockets: pip install "mlmg[ws]"') from None
-    asyncio.run(_serve_ws(build, host, port))
+    return asyncio.run(_serve_ws(build, host, port))
 
 
-async def _serve_ws(build: Callable[[], Server], host: str, port: int) -> None:
+async def _serve_ws(build: Callable[[], Server], host: str, port: int) -> int:
     from websockets.asyncio.server import serve
 
     async def client(connection: ServerConnection) -> None:
@@ -185,9 +210,18 @@ async def _serve_ws(build: Callable[[], Server], host: str, port: int) -> None:
         await _until_ended(server, _receive_all(server, connection))
         sending.cancel()
 
-    async with serve(client, host, port, max_size=_MOST_READ) as listening:
-        _tell_where("ws", next(iter(listening.sockets)).getsockname())
-        await listening.serve_forever()
+    ended = asyncio.Event()
+    told = _told_to_end(ended)
+    listening = await serve(client, host, port, max_size=_MOST_READ)
+    _tell_where("ws", next(iter(listening.sockets)).getsockname())
+    try:
+        await ended.wait()
+    finally:
+        listening.close()
+        with suppress(TimeoutError):
+            async with asyncio.timeout(_CLOSING_S):
+                await listening.wait_closed()
+    return 128 + told[0]
 
 
 async def _send_all(connection: ServerConnection, outgoing: asyncio.Queue[bytes]) -> None:

@@ -10,7 +10,7 @@ import struct
 import subprocess
 import sys
 from collections.abc import Iterator
-from contextlib import ExitStack
+from contextlib import ExitStack, contextmanager, suppress
 
 import pytest
 
@@ -21,17 +21,24 @@ MESSAGES = (
 URI = "untitled:x"
 
 
+@contextmanager
+def serving(way: str, folder, library) -> Iterator[tuple[subprocess.Popen[bytes], int]]:
+    words = ["lsp", f"--{way}", "127.0.0.1:0", "--library", str(library.path)]
+    program = [sys.executable, "-m", "mlmg_lang.commands.mlmg", *words]
+    with subprocess.Popen(program, stderr=subprocess.PIPE, cwd=folder) as process:
+        try:
+            said = process.stderr.readline().decode()
+            found = re.search(r"://127\.0\.0\.1:(\d+)", said)
+            assert found is not None, said
+            yield process, int(found[1])
+        finally:
+            process.kill()
+
+
 @pytest.fixture(params=["tcp", "ws"])
 def address(request, tmp_path, demo_library) -> Iterator[tuple[str, int]]:
-    words = ["lsp", f"--{request.param}", "127.0.0.1:0", "--library", str(demo_library.path)]
-    program = [sys.executable, "-m", "mlmg_lang.commands.mlmg", *words]
-    with subprocess.Popen(program, stderr=subprocess.PIPE, cwd=tmp_path) as process:
-        assert process.stderr is not None
-        said = process.stderr.readline().decode()
-        found = re.search(r"://127\.0\.0\.1:(\d+)", said)
-        assert found is not None, said
-        yield request.param, int(found[1])
-        process.kill()
+    with serving(request.param, tmp_path, demo_library) as (_, port):
+        yield request.param, port
 
 
 class Tcp:
@@ -49,6 +56,11 @@ class Tcp:
             assert line, "the server has gone"
             length = int(line.split(b":")[1]) if line.startswith(b"Content-Length") else length
         return json.loads(self.file.read(length))
+
+    def is_closed_in_order(self) -> bool:
+        """Return whether nothing comes any more, once all that is still to come has; a reset would raise."""
+        self.file.read()
+        return True
 
     def vanish(self) -> None:
         """Go in the middle of a message, as when the machine is switched off."""
@@ -75,6 +87,14 @@ class Ws:
         message = self.connection.recv(timeout=60)
         assert isinstance(message, str)
         return json.loads(message)
+
+    def is_closed_in_order(self) -> bool:
+        from websockets.exceptions import ConnectionClosedOK
+
+        with suppress(ConnectionClosedOK):
+            while True:
+                self.connection.recv(timeout=60)
+        return self.connection.close_code == 1001  # it goes away
 
     def vanish(self) -> None:
         self.connection.socket.shutdown(socket.SHUT_RDWR)
@@ -141,3 +161,33 @@ def test_a_signal_ends_it_without_a_word_whatever_it_is_at(name, code, tmp_path,
         process.stdout.read()
         assert process.stderr.read() == b""
         assert process.wait() == code
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="there are no such signals")
+@pytest.mark.parametrize(
+    ("name", "code", "said"),
+    [("SIGTERM", 143, b""), ("SIGHUP", 129, b""), ("SIGINT", 130, b"mlmg lsp: interrupted\n")],
+)
+@pytest.mark.parametrize("way", ["tcp", "ws"])
+def test_a_signal_ends_it_and_all_connections_in_order_whatever_it_is_at(way, name, code, said, tmp_path, demo_library):
+    item = {"uri": URI, "languageId": "motion-script", "version": 1, "text": "WALK for 2 sec\nIDLE\n" * 2_000}
+    asked = {"textDocument": {"uri": URI}}
+    of_none = {"textDocument": {"uri": "untitled:none"}, "position": {"line": 0, "character": 0}}
+    with serving(way, tmp_path, demo_library) as (process, port):
+        clients = [{"tcp": Tcp, "ws": Ws}[way](port) for _ in range(2)]
+        for client in clients:
+            for message in MESSAGES:
+                client.send(message)
+            assert client.receive()["id"] == 1
+        clients[0].send({"method": "textDocument/didOpen", "params": {"textDocument": item}})
+        for number in range(2, 12):
+            clients[0].send({"id": number, "method": "textDocument/semanticTokens/full", "params": asked})
+        clients[0].send({"id": 12, "method": "textDocument/hover", "params": of_none})
+        while clients[0].receive().get("id") != 12:  # now all has been read
+            pass
+        process.send_signal(getattr(signal, name))
+        assert process.wait(timeout=60) == code
+        assert process.stderr.read() == said
+        for client in clients:
+            assert client.is_closed_in_order()
+            client.close()
