@@ -48,7 +48,7 @@ def run(arguments: argparse.Namespace) -> int:
     from mlmg_lsp import transports
     from mlmg_lsp.libraries import Shelf
     from mlmg_lsp.memory import give_back
-    from mlmg_lsp.server import build_server
+    from mlmg_lsp.server import MotionScriptServer
     from mlmg_lsp.work import tell_unraisable
     from mlmg_lsp.workspace import Settings
 
@@ -62,7 +62,7 @@ def run(arguments: argparse.Namespace) -> int:
     settings = Settings(arguments.library, tuple(arguments.allow_use), arguments.position_encoding)
 
     def build() -> transports.Server:
-        return build_server(settings, shelf)
+        return MotionScriptServer(settings, shelf)
 
     if arguments.tcp is None and arguments.ws is None:
         return transports.serve_stdio(build)

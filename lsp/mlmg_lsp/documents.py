@@ -104,8 +104,8 @@ class Documents:
 
     def __init__(
         self,
-        files: Callable[[Document], Files],
-        told: Callable[[Document], Awaitable[None]],
+        files: Callable[[Document, Callable[[str], str | None]], Files],
+        told: Callable[[Snapshot], Awaitable[None]],
         get_ready: Callable[[], None],
         get_ahead: Callable[[Snapshot], None],
     ) -> None:
@@ -113,8 +113,8 @@ class Documents:
 
         Parameters
         ----------
-        files : says where a text finds the files that it uses.
-        told : is called with each new analysis. get_ready : is called once, before the first.
+        files : says where a text finds the files that it uses; takes also what has the texts of files that are open.
+        told : is called with each text that is analysed. get_ready : is called once, before the first.
         get_ahead : is called with a text that has been opened, beside all else.
         """
         self.client = Client()
@@ -255,9 +255,10 @@ class Documents:
         ready.set_result(analysis)
         if analysis.made.serial == 0:  # made afresh, so that nearly all of it will stay
             settle()
+        snapshot = await self.snapshot(document.uri)
         if document.ahead is None:
-            document.ahead = asyncio.ensure_future(self._look_ahead(await self.snapshot(document.uri)))
-        await self._told(document)
+            document.ahead = asyncio.ensure_future(self._look_ahead(snapshot))
+        await self._told(snapshot)
         await off_loop(lambda: analysis.ready)
 
     async def _look_ahead(self, snapshot: Snapshot) -> None:
@@ -278,7 +279,7 @@ class Documents:
         catalog, names = (None, None) if shelved is None else (shelved.library, shelved.names)
         if not document.stale and before is not None and before.question.catalog is catalog:
             return partial(analyse_again, before, source)
-        question = Question(catalog, names, None, self._files(document))
+        question = Question(catalog, names, None, self._files(document, self.text_of))
 
         def afresh() -> Analysis:
             with undisturbed():

@@ -1,4 +1,4 @@
-"""The protocol as pygls has it, but for texts, which are kept by `documents`, and for how it ends."""
+"""The protocol as pygls has it, but for texts, which are kept by `documents`, for commands, and for how it ends."""
 
 from __future__ import annotations
 
@@ -6,8 +6,8 @@ import asyncio
 import json
 import logging
 import typing
-from collections.abc import Generator
-from typing import Any, cast
+from collections.abc import Callable, Generator
+from typing import TYPE_CHECKING, Any, Final, cast
 
 from lsprotocol import types
 from pygls.exceptions import (
@@ -22,39 +22,50 @@ from mlmg_lsp.memory import forget_way
 from mlmg_lsp.positions import Encoding
 from mlmg_lsp.written import Written
 
+if TYPE_CHECKING:
+    from cattrs import Converter
+    from pygls.lsp.server import LanguageServer
+
 _log = logging.getLogger(__name__)
 
+_HANDED_ON: Final = (
+    types.TEXT_DOCUMENT_DID_OPEN,
+    types.TEXT_DOCUMENT_DID_CHANGE,
+    types.TEXT_DOCUMENT_DID_CLOSE,
+    types.WORKSPACE_EXECUTE_COMMAND,
+)
+"""What pygls would do with these is left out: in its copies of texts, Unicode's line ends would put edits elsewhere."""
 
-class Texts(typing.Protocol):
-    """What is told of texts, of commands, and of the end.
+
+class Host(typing.Protocol):
+    """The server, as the protocol sees it.
 
     Attributes
     ----------
     encoding : what a client counts characters in that does not say so.
+    ended : is set at the end. orderly : whether that was announced.
     """
 
     encoding: Encoding
     orderly: bool
     ended: asyncio.Event
 
-    def opened(self, params: types.DidOpenTextDocumentParams) -> None:
-        """Take in a text."""
-
-    def changed(self, params: types.DidChangeTextDocumentParams) -> None:
-        """Edit a text."""
-
-    def closed(self, params: types.DidCloseTextDocumentParams) -> None:
-        """Let go of a text."""
-
     def fit(self, capabilities: types.ServerCapabilities) -> None:
         """Leave out of what the client is told that can be done what it had better not ask for; add what it may."""
 
-    async def execute(self, params: types.ExecuteCommandParams) -> Any:
-        """Execute a command."""
-
 
 class Protocol(LanguageServerProtocol):
-    """Hands messages on. pygls's own copies of texts are left out: Unicode's line ends would put edits elsewhere."""
+    """Hands messages on."""
+
+    def __init__(self, server: LanguageServer, converter: Converter) -> None:
+        """Take to whom they are handed, and what makes them of JSON."""
+        super().__init__(server, converter)
+        for method in _HANDED_ON:
+            del self.fm.builtin_features[method]
+
+    def connect(self, send: Callable[[bytes], object], headers: bool) -> None:
+        """Take what sends a message."""
+        self.set_writer(_Writer(send), headers)
 
     def receive(self, body: bytes | str) -> None:
         """Handle a message. One that cannot be understood is passed over; if it asks for an answer, it is told so."""
@@ -113,41 +124,34 @@ class Protocol(LanguageServerProtocol):
             future.cancel()
 
     @property
-    def _texts(self) -> Texts:
-        return cast("Texts", self._server)
+    def _host(self) -> Host:
+        return cast("Host", self._server)
 
     @lsp_method(types.INITIALIZE)
     def lsp_initialize(self, params: types.InitializeParams) -> Generator[Any, Any, types.InitializeResult]:
         """Answer with what can be done for the client; what it counts characters in is filled in if it does not say."""
         general = params.capabilities.general or types.GeneralClientCapabilities()
-        general.position_encodings = general.position_encodings or [self._texts.encoding]
+        general.position_encodings = general.position_encodings or [self._host.encoding]
         params.capabilities.general = general
         result = yield from super().lsp_initialize(params)
-        self._texts.fit(result.capabilities)
+        self._host.fit(result.capabilities)
         return result
-
-    @lsp_method(types.WORKSPACE_EXECUTE_COMMAND)
-    async def lsp_workspace__execute_command(self, params: types.ExecuteCommandParams) -> Any:  # type: ignore[override]
-        """Execute a command."""
-        return await self._texts.execute(params)
-
-    @lsp_method(types.TEXT_DOCUMENT_DID_OPEN)
-    def lsp_text_document__did_open(self, params: types.DidOpenTextDocumentParams) -> None:
-        """Take in a text."""
-        self._texts.opened(params)
-
-    @lsp_method(types.TEXT_DOCUMENT_DID_CHANGE)
-    def lsp_text_document__did_change(self, params: types.DidChangeTextDocumentParams) -> None:
-        """Edit a text."""
-        self._texts.changed(params)
-
-    @lsp_method(types.TEXT_DOCUMENT_DID_CLOSE)
-    def lsp_text_document__did_close(self, params: types.DidCloseTextDocumentParams) -> None:
-        """Let go of a text."""
-        self._texts.closed(params)
 
     @lsp_method(types.EXIT)
     def lsp_exit(self, *_: object) -> None:  # type: ignore[override]
         """End; in order, if `shutdown` has come before."""
-        self._texts.orderly = self._shutdown
-        self._texts.ended.set()
+        self._host.orderly = self._shutdown
+        self._host.ended.set()
+
+
+class _Writer:
+    """What pygls sends by."""
+
+    def __init__(self, send: Callable[[bytes], object]) -> None:
+        self._send = send
+
+    def write(self, data: bytes | str) -> None:
+        self._send(data.encode("utf-8") if isinstance(data, str) else data)
+
+    def close(self) -> None:
+        """Do nothing: transports close what they have opened."""

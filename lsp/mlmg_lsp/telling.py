@@ -2,46 +2,53 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from itertools import chain
+from pathlib import Path
 from typing import Any
 
 from lsprotocol import types
+from pygls.lsp.server import LanguageServer
+
+from mlmg_lsp.documents import Snapshot
+from mlmg_lsp.work import off_loop
 
 
 class Telling:
     """What is to be told, by the names of files, and what has been."""
 
-    def __init__(self, tell: Callable[[str, list[types.Diagnostic], int | None], object]) -> None:
-        """Take what tells the client of a file: by its name all there is to say of it, and the version that is open."""
-        self._tell = tell
-        self._own: dict[str, tuple[int, Sequence[types.Diagnostic]]] = {}
+    def __init__(self, server: LanguageServer) -> None:
+        """Take what speaks to the client."""
+        self._server = server
+        self._uris: dict[str, str] = {}
+        self._own: dict[str, tuple[int | None, Sequence[types.Diagnostic]]] = {}
         self._used: dict[str, Mapping[str, Sequence[types.Diagnostic]]] = {}
         self._told: dict[str, list[types.Diagnostic]] = {}
 
-    def take(
-        self,
-        name: str,
-        version: int,
-        own: Sequence[types.Diagnostic],
-        used: Mapping[str, Sequence[types.Diagnostic]],
-        asks: bool,
-    ) -> None:
-        """Take what there is to say of an open text and of the files that it uses, and tell the client.
+    def opened(self, name: str, uri: str) -> None:
+        """Take what the client itself calls a file."""
+        self._uris[name] = uri
 
-        Parameters
-        ----------
-        asks : whether the client asks for what there is to say of an open text by itself.
-        """
+    async def tell(self, snapshot: Snapshot) -> None:
+        """Tell what there is to say of an open text, if the client does not ask, and of the files that it uses."""
+        from mlmg_lsp.convert import diagnostics_of, diagnostics_of_used
+
+        own, used = await off_loop(lambda: (diagnostics_of(snapshot), diagnostics_of_used(snapshot)))
+        name, asks = snapshot.analysis.source.name, snapshot.client.pulls
         before, self._used[name] = self._used.get(name, {}), used
-        self._own[name] = (version, own)
+        self._own[name] = (snapshot.version, own)
         # What has not changed is told again: it is of another version.
         self._show(name, asks, again=not asks)
         for file in dict.fromkeys((*before, *used)):
             self._show(file, asks)
 
     def forget(self, name: str, asks: bool) -> None:
-        """Take back what is known only by a text that is open no longer."""
+        """Take back what is known only by a text that is open no longer.
+
+        Parameters
+        ----------
+        asks : whether the client asks for what there is to say of an open text by itself.
+        """
         self._own.pop(name, None)
         used = self._used.pop(name, {})
         self._show(name, asks, again=not asks)
@@ -57,10 +64,14 @@ class Telling:
                 further.setdefault(_what(one), one)
         shown = [*(() if asks else own), *further.values()]
         if again or shown != self._told.get(file, []):
-            self._tell(file, shown, None if asks else version)
+            self._publish(file, shown, None if asks else version)
         self._told[file] = shown
         if not shown:
             del self._told[file]
+
+    def _publish(self, file: str, shown: list[types.Diagnostic], version: int | None) -> None:
+        uri = self._uris[file] if file in self._uris else Path(file).as_uri()
+        self._server.text_document_publish_diagnostics(types.PublishDiagnosticsParams(uri, shown, version=version))
 
     def _found_by_users(self, file: str) -> Iterator[types.Diagnostic]:
         return chain.from_iterable(used.get(file, ()) for used in self._used.values())

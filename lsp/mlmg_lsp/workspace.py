@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 from mlmg_lang.libraries import DEMO, Progress, find_library
-from mlmg_lsp.documents import Document, Documents, OpenFiles, path_of
+from mlmg_lsp.documents import Document, OpenFiles, path_of
 from mlmg_lsp.libraries import Shelf, Shelved
 from mlmg_lsp.positions import Encoding
 from mlmg_lsp.work import off_loop
@@ -96,12 +96,12 @@ class Workspace:
             return document.path
         return next(iter(self._roots.values()), Path.cwd()) / "untitled.ms"
 
-    def files(self, document: Document, documents: Documents) -> Files:
-        """Return what finds the files that a text uses."""
+    def files(self, document: Document, text_of: Callable[[str], str | None]) -> Files:
+        """Return what finds the files that a text uses; `text_of` has the texts of those that are open."""
         from mlmg_lang.script_files import used_files
 
         found = used_files(self.place_of(document), self.settings.allowed)
-        return OpenFiles(replace(found, script=document.name), documents.text_of)
+        return OpenFiles(replace(found, script=document.name), text_of)
 
     async def find(self, document: Document, progress: Progress, loading: Callable[[], object]) -> Shelved | None:
         """Return the library of a text, opened; None if nothing names one.

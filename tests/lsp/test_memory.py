@@ -13,7 +13,8 @@ from lsprotocol import types
 from mlmg_lsp.features import answer_named
 from mlmg_lsp.libraries import Shelf
 from mlmg_lsp.memory import forget_way, settle, undisturbed, unsettle
-from mlmg_lsp.server import MotionScriptServer, build_server
+from mlmg_lsp.server import MotionScriptServer
+from mlmg_lsp.session import ClientSession
 from mlmg_lsp.workspace import Settings
 from mlmg_runtime.library import Library
 
@@ -75,32 +76,32 @@ def test_a_library_that_is_replaced_goes_at_once_with_all_that_was_worked_out_of
     path = Path(shutil.copy(demo_library.path, tmp_path / "demo.mlmg"))
 
     async def replaced() -> None:
-        server = build_server(Settings(str(path)), Shelf())
-        server.opened(types.DidOpenTextDocumentParams(types.TextDocumentItem(URI, "motion-script", 1, TEXT)))
-        document = server.documents.get(URI)
+        session = MotionScriptServer(Settings(str(path)), Shelf()).session
+        session.opened(types.DidOpenTextDocumentParams(types.TextDocumentItem(URI, "motion-script", 1, TEXT)))
+        document = session.documents.get(URI)
         assert document is not None
-        await asked(server)
+        await asked(session)
         assert document.shelved is not None
         before, names = ref(document.shelved.library), ref(document.shelved.names)
         os.utime(path, (1, 1))
-        server.saved(types.DidSaveTextDocumentParams(types.TextDocumentIdentifier(URI)))
+        session.saved(types.DidSaveTextDocumentParams(types.TextDocumentIdentifier(URI)))
         assert document.finding is not None
         await document.finding
-        await server.snapshot(URI)
+        await session.snapshot(URI)
         assert before() is None
         assert names() is None
-        server.documents.close_all()
+        session.documents.close_all()
 
     with undisturbed():
         asyncio.run(replaced())
 
 
-async def asked(server: MotionScriptServer) -> None:
+async def asked(session: ClientSession) -> None:
     """Ask for what is kept from one answer to the next, and for what cannot be had."""
-    snapshot = await server.snapshot(URI)
+    snapshot = await session.snapshot(URI)
     document = types.TextDocumentIdentifier(URI)
     for module in ("semantic_tokens", "outline", "code_lens", "formatting"):
         answer_named(f"{module}.get_ahead")(snapshot)
-    assert await server.foresight.of(snapshot) is not None
+    assert await session.foresight.of(snapshot) is not None
     position = types.Position(0, 0)
     assert answer_named("completion.completion")(snapshot, types.CompletionParams(document, position))

@@ -1,0 +1,87 @@
+"""What answers, or takes, each message of a client."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from contextlib import suppress
+from functools import partial
+from typing import Any
+
+from lsprotocol import types
+from pygls.exceptions import JsonRpcContentModified
+from pygls.lsp.server import LanguageServer
+
+from mlmg_lsp.features import FEATURES, INLAY_HINT, RESOLVING, WORKSPACE_SYMBOL, answer_named
+from mlmg_lsp.session import ClientSession
+from mlmg_lsp.work import off_loop
+
+
+def register(server: LanguageServer, session: ClientSession) -> None:
+    """Let a server hand on what its client tells and asks."""
+    handed_on: tuple[tuple[str, Callable[[Any], Any]], ...] = (
+        (types.INITIALIZED, session.begun),
+        (types.TEXT_DOCUMENT_DID_OPEN, session.opened),
+        (types.TEXT_DOCUMENT_DID_CHANGE, session.changed),
+        (types.TEXT_DOCUMENT_DID_SAVE, session.saved),
+        (types.TEXT_DOCUMENT_DID_CLOSE, session.closed),
+        (types.WORKSPACE_DID_CHANGE_CONFIGURATION, session.settings_changed),
+        (types.WORKSPACE_DID_CHANGE_WATCHED_FILES, session.files_changed),
+        (types.WORKSPACE_DID_CHANGE_WORKSPACE_FOLDERS, session.folders_changed),
+        (types.WORKSPACE_EXECUTE_COMMAND, session.executor.execute),
+    )
+    for method, handler in handed_on:
+        server.feature(method)(partial(handler))  # pygls writes on what it is given, which methods do not let it do
+    for method, options, name in FEATURES:
+        server.feature(method, options)(_of_text(session, name))
+    for method, name in RESOLVING:
+        server.feature(method)(_of_item(session, name))
+    server.feature(types.TEXT_DOCUMENT_INLAY_HINT)(_of_hints(session))
+    server.feature(types.WORKSPACE_SYMBOL)(_of_all_texts(session))
+
+
+def _of_text(session: ClientSession, name: str) -> Callable[[Any], Any]:
+    """Return what answers a request about a text, off the thread that reads messages."""
+
+    async def handler(params: Any) -> Any:
+        snapshot = await session.snapshot(params.text_document.uri)
+        return await off_loop(lambda: answer_named(name)(snapshot, params))
+
+    return handler
+
+
+def _of_hints(session: ClientSession) -> Callable[[Any], Any]:
+    """Return what answers for hints: with what is foreseen of the text, if that is wanted."""
+
+    async def handler(params: types.InlayHintParams) -> Any:
+        snapshot = await session.snapshot(params.text_document.uri)
+        kinds = session.workspace.settings.hints
+        outlook = await session.foresight.of(snapshot) if kinds & {"motions", "arrivals"} else None
+        return await off_loop(lambda: answer_named(INLAY_HINT)(snapshot, params, outlook, kinds))
+
+    return handler
+
+
+def _of_all_texts(session: ClientSession) -> Callable[[Any], Any]:
+    """Return what looks for names in all open texts; one that is edited meanwhile is left out."""
+
+    async def handler(params: types.WorkspaceSymbolParams) -> Any:
+        snapshots = []
+        for document in session.documents.all():
+            with suppress(JsonRpcContentModified):
+                snapshots.append(await session.snapshot(document.uri))
+        return await off_loop(lambda: answer_named(WORKSPACE_SYMBOL)(snapshots, params))
+
+    return handler
+
+
+def _of_item(session: ClientSession, name: str) -> Callable[[Any], Any]:
+    """Return what adds to an item that was answered before; it says itself of which text it is."""
+
+    async def handler(item: Any) -> Any:
+        uri = item.data.get("uri") if isinstance(item.data, dict) else None
+        if not isinstance(uri, str):
+            return item
+        snapshot = await session.snapshot(uri)
+        return await off_loop(lambda: answer_named(name)(snapshot, item))
+
+    return handler

@@ -1,0 +1,192 @@
+"""What is open in one client, and what is done where the client tells that it has changed."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from lsprotocol import types
+from pygls.exceptions import JsonRpcContentModified
+from pygls.lsp.server import LanguageServer
+
+from mlmg_lsp.asking import Asker
+from mlmg_lsp.background import Background
+from mlmg_lsp.client import client_from
+from mlmg_lsp.documents import Document, Documents, Snapshot, Superseded, path_of
+from mlmg_lsp.executing import Executor
+from mlmg_lsp.features import HINTS_AHEAD, answer_named, get_ahead, warm
+from mlmg_lsp.finding import LibraryFinder
+from mlmg_lsp.foresight import Foresight
+from mlmg_lsp.libraries import Shelf, Shelved
+from mlmg_lsp.telling import Telling
+from mlmg_lsp.workspace import Settings, Workspace, folders_of
+
+if TYPE_CHECKING:
+    from mlmg_lang.ide.hints import Outlook
+
+
+class ClientSession:
+    """Brings together all that is there for one client.
+
+    Attributes
+    ----------
+    background : what goes on by itself for it, which ends with it.
+    """
+
+    def __init__(self, server: LanguageServer, settings: Settings, shelf: Shelf) -> None:
+        """Take what speaks to the client, the settings of the command, and the libraries that are open."""
+        self._server = server
+        self.background = Background()
+        self.workspace = Workspace(settings, shelf)
+        self._telling = Telling(server)
+        self.documents = Documents(self.workspace.files, self._telling.tell, warm, get_ahead)
+        self._asker = Asker(server, self.documents, self.background)
+        self._finder = LibraryFinder(server, self.workspace, self.documents, self.background, self._take_library)
+        self.foresight = Foresight(self._get_hints, partial(self._asker.refresh, "inlay_hint"), self._tell_not_foreseen)
+        self.executor = Executor(server, self.documents, self.snapshot)
+
+    # --- beginning and end ---
+
+    def begin(self, params: types.InitializeParams) -> None:
+        """Take in what the client says of itself."""
+        self.documents.client = client_from(params.capabilities)
+        for uri in folders_of(params):
+            self.workspace.add(uri)
+        self.workspace.set_client(params.initialization_options)
+
+    def begun(self, _params: types.InitializedParams) -> None:
+        """Get ready, and ask the client for what it can be asked for."""
+        self.background.begin(self.documents.warm())
+        self._asker.watch_files()
+        self._asker.tell_settings(self._set_settings)
+
+    def end(self) -> None:
+        """Let go of all."""
+        self.documents.close_all()
+        self.foresight.end()
+        self.executor.end()
+        self.background.end()
+
+    # --- texts ---
+
+    async def snapshot(self, uri: str) -> Snapshot:
+        """Return an open text with all that is known of it.
+
+        Raises
+        ------
+        JsonRpcContentModified
+            If the text is edited before that is known, or is not open.
+        """
+        try:
+            return await self.documents.snapshot(uri)
+        except Superseded as error:
+            raise JsonRpcContentModified(str(error)) from None
+
+    def opened(self, params: types.DidOpenTextDocumentParams) -> None:
+        """Take in a text."""
+        document = self.documents.open(params.text_document)
+        self._telling.opened(document.name, document.uri)
+        self._finder.look(document)
+
+    def changed(self, params: types.DidChangeTextDocumentParams) -> None:
+        """Edit a text, and look again at those that use it."""
+        self.foresight.stop(params.text_document.uri)
+        document = self.documents.change(params)
+        if document is not None and document.path is not None:
+            self._used_changed(document.path)
+
+    def saved(self, params: types.DidSaveTextDocumentParams) -> None:
+        """Look whether a library is another by now: not all clients tell of that."""
+        document = self.documents.get(params.text_document.uri)
+        if document is not None:
+            self._finder.look(document)
+
+    def closed(self, params: types.DidCloseTextDocumentParams) -> None:
+        """Let go of a text, with what was said of it."""
+        uri = params.text_document.uri
+        document = self.documents.get(uri)
+        self.documents.close(uri)
+        self.foresight.forget(uri)
+        if document is not None:
+            self._telling.forget(document.name, self.documents.client.pulls)
+        path = path_of(uri)
+        if path is not None:
+            self._used_changed(path)
+
+    # --- settings, files and folders ---
+
+    def settings_changed(self, params: types.DidChangeConfigurationParams) -> None:
+        """Take the settings that the client sends; one that can be asked for them may send none."""
+        if self.documents.client.configuration:
+            self._asker.tell_settings(self._set_settings)
+        else:
+            self._set_settings(params.settings)
+
+    def files_changed(self, params: types.DidChangeWatchedFilesParams) -> None:
+        """Look again at what files that have changed have to do with."""
+        paths = [path for change in params.changes if (path := path_of(change.uri)) is not None]
+        if any(path.suffix != ".ms" for path in paths):
+            self._finder.look_for_all()
+        for path in paths:
+            if path.suffix == ".ms":
+                self._used_changed(path)
+        if any(change.type == types.FileChangeType.Created for change in params.changes):
+            self._found_missing()
+
+    def folders_changed(self, params: types.DidChangeWorkspaceFoldersParams) -> None:
+        """Open and close folders."""
+        for folder in params.event.added:
+            self.workspace.add(folder.uri)
+        for folder in params.event.removed:
+            self.workspace.remove(folder.uri)
+        self._finder.look_for_all()
+
+    # --- what follows from that ---
+
+    def _set_settings(self, settings: Any) -> None:
+        before = self.workspace.settings
+        self.workspace.set_client(settings)
+        now = self.workspace.settings
+        if now.hints != before.hints:
+            self._asker.refresh("inlay_hint")
+        if replace(now, hints=before.hints) != before:
+            self._finder.look_for_all()
+            for document in self.documents.all():
+                self.documents.reconsider(document)
+            self._asker.refresh()
+
+    def _take_library(self, document: Document, shelved: Shelved | None) -> None:
+        """Look again at a text that has another library than before."""
+        is_another = shelved is not document.shelved
+        document.shelved = shelved
+        if is_another:  # what is kept would keep the other library, which may be large
+            document.kept = {}
+            self.foresight.end()
+        document.found.set()
+        if is_another and document.begun:
+            self.documents.analyse(document, afresh=True)
+            self._asker.refresh()
+
+    def _used_changed(self, path: Path) -> None:
+        """Look again at the texts that use a file."""
+        users = list(self.documents.users(path))
+        for document in users:
+            self.documents.analyse(document, afresh=True)
+        if users:
+            self._asker.refresh()
+
+    def _found_missing(self) -> None:
+        """Look again at texts that use a file which was not there."""
+        for document in self.documents.all():
+            if document.analysis is not None and not document.analysis.definitions.complete:
+                self.documents.analyse(document, afresh=True)
+        self._asker.refresh()
+
+    def _get_hints(self, snapshot: Snapshot, outlook: Outlook) -> None:
+        answer_named(HINTS_AHEAD)(snapshot, outlook, self.workspace.settings.hints)
+
+    def _tell_not_foreseen(self, error: Exception) -> None:
+        message = f"What commands will play cannot be foreseen: {error!r}"
+        self._server.window_log_message(types.LogMessageParams(types.MessageType.Warning, message))
