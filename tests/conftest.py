@@ -1,5 +1,6 @@
 """What all tests share: the way to the real clips, and the flag that rewrites golden files."""
 
+import os
 from collections.abc import Callable
 from pathlib import Path
 
@@ -14,14 +15,17 @@ from mlmg_runtime.demo.library import demo_library as build_demo_library
 from mlmg_runtime.library import Library, open_library
 
 # A machine shared with others is slow at times; how long an example takes is no part of a test.
-settings.register_profile("mlmg", deadline=None)
+settings.register_profile("mlmg", deadline=None, max_examples=50)
 settings.load_profile("mlmg")
+
+# Programs that tests start are compiled once, as they are for users, and not at each start.
+os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
     parser.addoption("--update-golden", action="store_true", help="rewrite the files in tests/golden and tests/invalid")
     parser.addoption("--all-edits", action="store_true", help="try every slip of the hand, not a part of them")
-    parser.addoption("--edits", type=int, default=180, help="how many random edits the language server is tried with")
+    parser.addoption("--edits", type=int, default=120, help="how many random edits the language server is tried with")
 
 
 @pytest.fixture(scope="session")

@@ -159,7 +159,7 @@ def assert_sound(analysis: Analysis) -> None:
             assert source.file(fix.span.start) == source.file(one.span.start), one
 
 
-@settings(max_examples=300)
+@settings(max_examples=150)
 @given(texts=st.tuples(BODIES | mutated(), BODIES, BODIES))
 def test_every_place_lies_in_a_file_and_every_fix_in_that_of_its_mistake(
     left_hand_always: Any, texts: tuple[str, str, str]
@@ -191,7 +191,7 @@ def test_a_script_is_analysed_the_same_whenever_it_is(left_hand_always: Any, tex
 # --- texts without end ---
 
 
-MANY = 1_000_000
+MANY = 300_000
 
 
 @pytest.mark.parametrize(
@@ -214,16 +214,16 @@ MANY = 1_000_000
         "repeat 2 { " * 10_000 + "WALK" + " }" * 10_000,
         "choose { WALK | " * 10_000,
         "choose { " + "|" * 20_000 + " }",
-        "WALK " * 20_000,
-        "WALK with " * 20_000,
-        " or ".join(["WALK"] * 20_000),
-        "# nothing\n" * 100_000,
-        ";" * 100_000,
-        "let " * 20_000,
-        "\n".join(f"let A{n}(x, y = A{n}) = A{n + 1}(y, x)" for n in range(5_000)) + "\nA0",
-        "\n".join(f"let A{n} = A{n + 1}" for n in range(5_000)) + "\nA0\nlet A5000 = WALK",
+        "WALK " * 10_000,
+        "WALK with " * 10_000,
+        " or ".join(["WALK"] * 10_000),
+        "# nothing\n" * 30_000,
+        ";" * 30_000,
+        "let " * 10_000,
+        "\n".join(f"let A{n}(x, y = A{n}) = A{n + 1}(y, x)" for n in range(2_000)) + "\nA0",
+        "\n".join(f"let A{n} = A{n + 1}" for n in range(2_000)) + "\nA0\nlet A2000 = WALK",
         "\n".join(f"let A{n} = A{n + 1} or A{n + 1}" for n in range(300)) + "\nA0\nlet A300 = WALK",
-        "\n".join(f"let A{n} = A{(n + 1) % 5_000}" for n in range(5_000)) + "\nA0",
+        "\n".join(f"let A{n} = A{(n + 1) % 2_000}" for n in range(2_000)) + "\nA0",
         "let A(" + ", ".join(f"x{n}" for n in range(2_000)) + ") = x0\nA(" + ", ".join(["WALK"] * 2_000) + ")",
         'use "a.ms"\n' * 2_000,
         "wait 1 cycles\n" * 2_000,
@@ -238,7 +238,7 @@ def test_a_text_of_any_length_is_analysed(text: str, reference: Any) -> None:
 
 
 @pytest.mark.parametrize("seed", range(4))
-def test_a_million_characters_of_nonsense_are_analysed(seed: int, reference: Any) -> None:
+def test_hundreds_of_thousands_of_characters_of_nonsense_are_analysed(seed: int, reference: Any) -> None:
     draws = random.Random(seed)
     pools = [
         [chr(number) for number in range(1, 127)],

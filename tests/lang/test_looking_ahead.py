@@ -54,9 +54,9 @@ def price(plan: ResolvedPlan, library: Library, seed: int = 0) -> float:
 
 
 def check_never_worse(library: Library) -> None:
-    """Check 40 scripts of eight random commands."""
+    """Check 20 scripts of eight random commands."""
     draw, gains = random.Random(11), []
-    for _ in range(40):
+    for _ in range(20):
         plan = resolved("\n".join(draw.choice(MOTIONS) + draw.choice(AFTER) for _ in range(8)), library)
         ahead = look_ahead(plan, library)
         greedy, looked = price(plan, library), price(ahead.plan, library)
@@ -79,14 +79,14 @@ def random_script(draw: random.Random) -> str:
 
 def test_with_loops_and_choices_what_is_played_is_never_worse(demo_library):
     draw, gains = random.Random(5), []
-    for seed in range(30):
+    for seed in range(15):
         plan = resolved(random_script(draw), demo_library)
         ahead = look_ahead(plan, demo_library, seed)
         greedy, looked = price(plan, demo_library, seed), price(ahead.plan, demo_library, seed)
         assert looked <= greedy + 0.01
         assert ahead.planned or ahead.plan is plan
         gains.append(greedy - looked)
-    assert sum(gain > 0.5 for gain in gains) > 5
+    assert sum(gain > 0.5 for gain in gains) > 2
 
 
 def test_on_the_demo_library_what_is_played_is_never_worse(demo_library):

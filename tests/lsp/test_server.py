@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import subprocess
 import sys
+from itertools import count
 
 import pytest
 
@@ -24,6 +25,25 @@ def encoded_length(text: str, encoding: str) -> int:
     )
 
 
+@pytest.fixture(scope="module")
+def open_anew(start_for_all):
+    """Return a function: an encoding and a text -> a client that counts in it, and the text's address.
+
+    Clients are shared by the tests of this module, addresses are not.
+    """
+    clients, addresses = {}, (f"untitled:Untitled-{number}" for number in count())
+
+    def open_text(encoding, text):
+        if encoding not in clients:
+            clients[encoding] = start_for_all()
+            clients[encoding].initialize({"general": {"positionEncodings": [encoding, "utf-16"]}})
+        uri = next(addresses)
+        clients[encoding].open(uri, text)
+        return clients[encoding], uri
+
+    return open_text
+
+
 def refusal(client, method: str, params: object) -> int:
     return client.outcome(client.begin(method, params))["error"]["code"]
 
@@ -41,20 +61,18 @@ def test_it_says_who_it_is_and_what_it_does(start):
 @pytest.mark.parametrize(
     "before", ["", "# 😀 走路\n", "IDLE # 😀 走路\tx\u2028y\x0cz\x85\r\n", "# a\rIDLE\r\n", '("走路😀" or '], ids=repr
 )
-def test_places_are_counted_as_the_client_counts(start, encoding, before):
-    client = start()
-    client.initialize({"general": {"positionEncodings": [encoding, "utf-16"]}})
-    client.open(URI, f"{before}WLAK\t for 3 sec")
+def test_places_are_counted_as_the_client_counts(open_anew, encoding, before):
+    client, uri = open_anew(encoding, f"{before}WLAK\t for 3 sec")
     line = before.replace("\r\n", "\n").replace("\r", "\n").rpartition("\n")[2]
     first = encoded_length(line, encoding)
-    found = next(one for one in client.diagnostics(URI) if "WLAK" in one["message"])["range"]
+    found = next(one for one in client.diagnostics(uri) if "WLAK" in one["message"])["range"]
     number = before.replace("\r\n", "\n").replace("\r", "\n").count("\n")
     assert found == {
         "start": {"line": number, "character": first},
         "end": {"line": number, "character": first + 4},
     }
-    client.edit(URI, 2, {"range": found, "text": "WALK"})
-    assert not any("WLAK" in one["message"] for one in client.diagnostics(URI, 2))
+    client.edit(uri, 2, {"range": found, "text": "WALK"})
+    assert not any("WLAK" in one["message"] for one in client.diagnostics(uri, 2))
 
 
 def test_the_first_encoding_of_the_client_that_is_known_is_taken(start):
@@ -77,11 +95,9 @@ def test_what_a_client_says_that_it_counts_in_comes_before_what_is_set(start):
 
 
 @pytest.mark.parametrize("text", ["", "IDLE", "\r\n", "# 走"], ids=repr)
-def test_a_text_without_a_mistake_is_told_to_have_none(start, text):
-    client = start()
-    client.initialize()
-    client.open(URI, text)
-    assert client.diagnostics(URI, 1) == []
+def test_a_text_without_a_mistake_is_told_to_have_none(open_anew, text):
+    client, uri = open_anew("utf-16", text)
+    assert client.diagnostics(uri, 1) == []
 
 
 def test_diagnostics_come_with_their_version_code_help_and_meaning(start):

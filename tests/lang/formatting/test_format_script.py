@@ -67,7 +67,7 @@ def test_a_valid_script_keeps_its_meaning_and_comments(
     formatted(text)
 
 
-@settings(max_examples=300)
+@settings(max_examples=150)
 @example('WALK } " WALK')
 @example("2: { with")
 @given(st.lists(st.sampled_from(PIECES), max_size=30).map(" ".join))

@@ -277,7 +277,7 @@ def happens(span: Span, stuck: Iterable[tuple[Span, str, str]]) -> bool:
 
 @pytest.mark.parametrize("depth", [0, 2], ids=["straight", "looping"])
 def test_what_resolves_can_be_played_in_every_order_and_by_every_choice(depth: int, catalog: Any) -> None:
-    @settings(max_examples=200)
+    @settings(max_examples=120)
     @given(cases(catalog, depth=depth, loses=False))
     def holds(case: tuple[Any, str]) -> None:
         library, text = case
@@ -296,7 +296,7 @@ def test_what_is_refused_cannot_be_obeyed_in_some_order_and_by_some_choice(
 ) -> None:
     """In a loop what plays on two graphs is not followed as a pair, so with any pairs cut it may be refused in vain."""
 
-    @settings(max_examples=200)
+    @settings(max_examples=120)
     @given(cases(catalog, depth=depth, loses=loses))
     def holds(case: tuple[Any, str]) -> None:
         library, text = case
@@ -315,7 +315,7 @@ def test_what_is_refused_cannot_be_obeyed_in_some_order_and_by_some_choice(
 
 @pytest.mark.parametrize("depth", [0, 2], ids=["straight", "looping"])
 def test_an_end_that_is_warned_of_ends_nothing_in_any_order(depth: int, catalog: Any) -> None:
-    @settings(max_examples=200)
+    @settings(max_examples=120)
     @given(cases(catalog, depth=depth, loses=True))
     def holds(case: tuple[Any, str]) -> None:
         library, text = case

@@ -32,7 +32,7 @@ def check(graph, start, targets, allowed, soonest) -> None:
     assert (expected.n_frames, expected.cost, expected.target) == found
 
 
-@settings(max_examples=400)
+@settings(max_examples=200)
 @given(data=st.data())
 def test_no_walk_over_all_frames_is_sooner_or_as_soon_and_cheaper(data, motion_graphs, soonest) -> None:
     graph = data.draw(motion_graphs(longest=14))
