@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import unicodedata
 from collections.abc import Iterable, Mapping, Sequence
-from functools import cached_property, lru_cache
+from functools import cached_property
 
 
 def normal(name: str) -> str:
@@ -12,12 +12,8 @@ def normal(name: str) -> str:
     return unicodedata.normalize("NFC", name)
 
 
-@lru_cache(maxsize=1 << 16)
 def folded(name: str) -> str:
-    """Return a name without what an inexact spelling may differ in: case, `_` and `-`.
-
-    It is kept, as one unknown name after the other is compared with all names of a library while somebody types.
-    """
+    """Return a name without what an inexact spelling may differ in: case, `_` and `-`."""
     plain = unicodedata.normalize("NFC", normal(name).casefold())
     return plain.replace("_", "").replace("-", "") or plain
 
@@ -52,7 +48,6 @@ def nearest(name: str, known: Iterable[str], limit: int = 3) -> tuple[str, ...]:
     return Vocabulary(known).nearest(name, limit)
 
 
-@lru_cache(maxsize=1 << 16)
 def _seen(name: str) -> str:
     """Return a name as it looks: without what is ignored in names, and wide letters like others."""
     return folded(unicodedata.normalize("NFKC", name))
