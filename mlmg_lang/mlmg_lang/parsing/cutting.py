@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from mlmg_lang.parsing.layout import inside_parentheses
-from mlmg_lang.parsing.lookalikes import as_meant
+from mlmg_lang.parsing.lookalikes import narrowed, without_comments
 from mlmg_lang.parsing.quotes import requoted, without_lone
 from mlmg_lang.parsing.strays import without_strays
 from mlmg_lang.parsing.swapped import in_order
@@ -99,4 +99,4 @@ def balance(tokens: Sequence[Token], depth: int = 0) -> Balance:
 
 def _meant(tokens: Sequence[Token], depth: int) -> Sequence[Token]:
     """Return the tokens that layout goes by."""
-    return without_strays(in_order(without_lone(as_meant(requoted(tokens)))), depth)
+    return without_strays(in_order(without_lone(without_comments(narrowed(requoted(tokens))))), depth)

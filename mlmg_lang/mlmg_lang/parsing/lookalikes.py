@@ -30,23 +30,21 @@ _SIGNS: Final[Mapping[str, str]] = MappingProxyType(
     | dict.fromkeys("\u3002\uff61\u061b\u037e\u2026", ";")
 )
 """Signs of other keyboards, and those of the language that they look like, or stand for."""
-_ODD: Final = re.compile(f"[{''.join(map(re.escape, _SIGNS))}]")
-_SIGN_TABLE: Final = MappingProxyType(str.maketrans(dict(_SIGNS)))
-_WORD: Final = re.compile(r"\w+")
-_WIDE: Final = re.compile(r"[\uff21-\uff5a]|[^\D0-9]")
+_WIDE: Final = r"[\uff21-\uff3a\uff41-\uff5a]|[^\D0-9]"
 """A letter or digit that could be one of ASCII in other width, or of another script."""
+_ODD: Final = re.compile(rf"[{''.join(map(re.escape, _SIGNS))}]|\b\w*(?:{_WIDE})\w*")
+"""A sign of another keyboard, or a word with such a letter or digit."""
 _OPENS: Final = ("//", "--", "/*")
 """What comments begin with in other languages; the last goes on to `*/`."""
 
 
-def as_meant(tokens: Sequence[Token]) -> Sequence[Token]:
-    """Return tokens with signs that only look like those of the language read as those, and without other comments."""
-    return _without_comments(_narrowed(tokens))
+def lookalikes(tokens: Sequence[Token], narrow: Sequence[Token], source: Source) -> Iterator[Diagnostic]:
+    """Yield what is wrong with such signs, once a line, and with such comments, each once.
 
-
-def lookalikes(tokens: Sequence[Token], source: Source) -> Iterator[Diagnostic]:
-    """Yield what is wrong with such signs, once a line, and with such comments, each once."""
-    narrow = _narrowed(tokens)
+    Parameters
+    ----------
+    narrow : the tokens as they are `narrowed`.
+    """
     comments = [Span(narrow[first].span.start, narrow[last].span.end) for first, last in _comments(narrow)]
     if narrow is not tokens:
         for line in _odd_lines(tokens):
@@ -66,52 +64,52 @@ def _is_inside(span: Span, others: Sequence[Span]) -> bool:
 # --- signs -----------------------------------------------------------------------------------------------
 
 
-def _narrowed(tokens: Sequence[Token]) -> Sequence[Token]:
+def narrowed(tokens: Sequence[Token]) -> Sequence[Token]:
     """Return tokens with those cut anew that hold signs of other keyboards; the very same if there are none."""
-    if not any(_is_odd(token) or _is_sign(token) for token in tokens):
+    if not any(token.type == "NAME" and not token.text.isascii() for token in tokens):
         return tokens
     found: list[Token] = []
-    in_comment = False
+    in_comment = is_odd = False
     for token in tokens:
         in_comment = in_comment and token.type != "NEWLINE"
-        if in_comment:
-            continue
-        parts = list(_cut(token)) if _is_odd(token) else [replace(token, type="UNKNOWN") if _is_sign(token) else token]
-        in_comment = parts[-1].type == "COMMENT"
-        found += parts
-    return found
+        if not in_comment:
+            parts = _cut(token)
+            found += parts or (token,)
+            is_odd = is_odd or bool(parts)
+            in_comment = found[-1].type == "COMMENT"
+    return found if is_odd else tokens
 
 
-def _is_odd(token: Token) -> bool:
-    return token.type == "NAME" and not token.text.isascii() and _narrow(token.text) != token.text
-
-
-def _is_sign(token: Token) -> bool:
-    """Return whether what was taken for a name is nothing but arrows and signs of mathematics."""
-    return (
-        token.type == "NAME" and not token.text.isascii() and all(unicodedata.category(c) == "Sm" for c in token.text)
-    )
-
-
-def _cut(token: Token) -> Iterator[Token]:
-    for piece in scan(motion_script(), _narrow(token.text)):
+def _cut(token: Token) -> Sequence[Token]:
+    """Return what a name is that holds such signs, or is one; nothing for all other tokens."""
+    if token.type != "NAME" or token.text.isascii():
+        return ()
+    narrow = _narrow(token.text)
+    if narrow == token.text:
+        return (replace(token, type="UNKNOWN"),) if _is_sign(narrow) else ()
+    parts = []
+    for piece in scan(motion_script(), narrow):
         assert piece.start_pos is not None
         start = token.span.start + piece.start_pos
         if piece.type != "SPACE":
-            yield Token(piece.type, str(piece), Span(start, start + len(piece)))
+            parts.append(Token(piece.type, str(piece), Span(start, start + len(piece))))
+    return parts
+
+
+def _is_sign(text: str) -> bool:
+    """Return whether what was taken for a name is nothing but arrows and signs of mathematics."""
+    return all(unicodedata.category(letter) == "Sm" for letter in text)
 
 
 def _narrow(text: str) -> str:
     """Return a name with what is no part of a name as the language writes it, character for character."""
     if is_name(text):
-        return _narrow_word(text)
-    return _WORD.sub(lambda word: _narrow_word(word[0]), text.translate(_SIGN_TABLE))
+        return _narrow_word(text) if _ODD.search(text) else text
+    return _ODD.sub(lambda odd: _SIGNS.get(odd[0]) or _narrow_word(odd[0]), text)
 
 
 def _narrow_word(word: str) -> str:
     """Return a word in ASCII if it would be a number or a word of the language then."""
-    if not _WIDE.search(word):
-        return word
     plain = "".join(map(_plain, word))
     is_word = plain in UNITS or plain in reserved_words(motion_script())
     return plain if is_word or plain[0].isdigit() else word
@@ -135,6 +133,10 @@ def _odd_lines(tokens: Sequence[Token]) -> Iterator[list[Token]]:
             line.append(token)
     if line:
         yield line
+
+
+def _is_odd(token: Token) -> bool:
+    return token.type == "NAME" and not token.text.isascii() and _narrow(token.text) != token.text
 
 
 def _is_told_elsewhere(token: Token) -> bool:
@@ -178,7 +180,8 @@ def _changes(token: Token) -> Iterator[tuple[Span, str]]:
 # --- comments --------------------------------------------------------------------------------------------
 
 
-def _without_comments(tokens: Sequence[Token]) -> Sequence[Token]:
+def without_comments(tokens: Sequence[Token]) -> Sequence[Token]:
+    """Return narrowed tokens without such comments; the very same if there are none."""
     kept: list[Token] = []
     end = 0
     for first, last in _comments(tokens):
@@ -233,10 +236,10 @@ def _comment(span: Span, source: Source) -> Diagnostic:
 
 def opens_or_closes(tokens: Sequence[Token]) -> bool:
     """Return whether there is a sign that could make a comment of other lines, where quotes have been seen to."""
-    return any(token.type == "UNKNOWN" and ("/*" in token.text or "*/" in token.text) for token in _narrowed(tokens))
+    return any(token.type == "UNKNOWN" and ("/*" in token.text or "*/" in token.text) for token in narrowed(tokens))
 
 
 def has_other_comments(tokens: Sequence[Token]) -> bool:
     """Return whether some of the tokens are meant to be comments, and are none."""
-    narrow = _narrowed(tokens)
+    narrow = narrowed(tokens)
     return any(_comments(narrow)) or any(token.type == "NAME" and "#" in _narrow(token.text) for token in tokens)

@@ -13,7 +13,7 @@ from mlmg_lang.parsing.build_syntax import name_from_token
 from mlmg_lang.parsing.layout import MAX_DEPTH, mark
 from mlmg_lang.parsing.lexical import check_tokens, join_quoted
 from mlmg_lang.parsing.line_parser import Stuck, read
-from mlmg_lang.parsing.lookalikes import as_meant, lookalikes
+from mlmg_lang.parsing.lookalikes import lookalikes, narrowed, without_comments
 from mlmg_lang.parsing.nesting import Around, Braces, Mark, Opened, nested
 from mlmg_lang.parsing.quotes import CURLY, requoted, without_lone
 from mlmg_lang.parsing.strays import stray_signs, without_strays
@@ -81,8 +81,9 @@ def read_marks(source: Source, tokens: Sequence[Token], around: Around = (), n_b
     last = tokens[-1] if len(tokens) == MAX_TOKENS else None
     left = max(MAX_MISTAKES - n_before, 0)
     tokens = requoted(tokens)
-    wrong = list(islice(lookalikes(tokens, source), left))
-    tokens = join_quoted(as_meant(tokens), source)
+    narrow = narrowed(tokens)
+    wrong = list(islice(lookalikes(tokens, narrow, source), left))
+    tokens = join_quoted(without_comments(narrow), source)
     wrong += islice(check_tokens(tokens), left)
     tokens = without_lone(tokens)
     wrong += islice(swapped(tokens), left)
