@@ -105,6 +105,14 @@ class Protocol(LanguageServerProtocol):
         if not future.cancelled():
             forget_way(future.exception())
 
+    def _handle_response(self, msg_id: Any, result: Any = None, error: Any = None) -> None:
+        """Take an answer of the client, if somebody still waits for it."""
+        future = self._request_futures.get(msg_id)
+        if future is not None and future.cancelled():
+            del self._request_futures[msg_id]
+        else:
+            super()._handle_response(msg_id, result, error)
+
     def _send_response(self, msg_id: Any, result: Any = None, error: Any = None) -> None:
         if error is None and isinstance(result, Written):
             self._result_types.pop(msg_id, None)

@@ -191,3 +191,24 @@ def test_a_signal_ends_it_and_all_connections_in_order_whatever_it_is_at(way, na
         for client in clients:
             assert client.is_closed_in_order()
             client.close()
+
+
+def test_an_answer_that_comes_when_nobody_waits_for_it_any_more_is_passed_over_without_a_word(tmp_path, demo_library):
+    item = {"uri": URI, "languageId": "motion-script", "version": 1, "text": "WLAK"}
+    with serving("tcp", tmp_path, demo_library) as (process, port):
+        client = Tcp(port)
+        can = {"processId": None, "rootUri": None, "capabilities": {"window": {"workDoneProgress": True}}}
+        client.send({"id": 1, "method": "initialize", "params": can})
+        client.send({"method": "initialized", "params": {}})
+        client.send({"method": "textDocument/didOpen", "params": {"textDocument": item}})
+        asked = None
+        while not (message := client.receive()).get("params", {}).get("diagnostics"):  # until the library is there
+            asked = message["id"] if message.get("method") == "window/workDoneProgress/create" else asked
+        assert asked is not None
+        client.send({"id": asked, "result": None})
+        client.send({"id": 2, "method": "shutdown"})
+        while client.receive().get("id") != 2:
+            pass
+        process.terminate()
+        client.close()
+        assert process.stderr.read() == b""
