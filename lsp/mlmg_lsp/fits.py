@@ -8,7 +8,7 @@ from typing import cast
 
 import numpy as np
 
-from mlmg_lang.ide.completion import Ranked
+from mlmg_lang.ide.offers import Ranked
 from mlmg_runtime.arrays import FloatArray
 from mlmg_runtime.library import Library
 from mlmg_runtime.motion_graph import UNREACHABLE, MotionGraph
@@ -18,7 +18,7 @@ _MOST_KEPT = 16
 
 @dataclass(frozen=True, slots=True)
 class LibraryFits:
-    """How well motions go with what may be playing; see `ide.completion.Fits`.
+    """How well motions go with what may be playing; see `ide.offers.Fits`.
 
     On the root, the fewest transitions that lead to a motion, 0 for one that may be playing; of as many, first what is
     more like it. On the other graphs the Overall Motion Similarity to the best fitting of the motions above, over the

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, TypeAlias
 from mlmg_lsp.work import off_loop
 
 if TYPE_CHECKING:
-    from mlmg_lang.ide.completion import Offers
+    from mlmg_lang.ide.offers import Offers
     from mlmg_lang.planning.names import Names
     from mlmg_runtime.library import Library
 
@@ -80,7 +80,7 @@ def stamp_of(path: Path) -> Stamp | None:
 
 def _opened(path: Path) -> Shelved:
     # Imported here, as numpy takes long and is not needed until now.
-    from mlmg_lang.ide.completion import Offers
+    from mlmg_lang.ide.offers import Offers
     from mlmg_lang.planning.names import Names
     from mlmg_lsp.fits import Kept, LibraryFits
     from mlmg_runtime.library import open_library

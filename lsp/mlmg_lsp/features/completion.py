@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING, Any, Final
 
 from lsprotocol import types
 
-from mlmg_lang.ide.completion import Completion, Offers, Surroundings, What, complete
+from mlmg_lang.ide.completion import Surroundings, complete
 from mlmg_lang.ide.fuzzy import matching
 from mlmg_lang.ide.here import state_before, tokens_around
+from mlmg_lang.ide.offers import Completion, Offers, What
 from mlmg_lang.planning import flow
 from mlmg_lang.planning.names import Names
 from mlmg_lsp.convert import markup, offset_of

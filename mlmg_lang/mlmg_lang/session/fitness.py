@@ -13,7 +13,7 @@ from mlmg_runtime.motion_graph import MotionGraph, Position
 
 @dataclass(slots=True)
 class StageFits:
-    """How well motions go with what a character is playing; see `ide.completion.Fits`. What was asked is kept.
+    """How well motions go with what a character is playing; see `ide.offers.Fits`. What was asked is kept.
 
     On the root, seconds until a motion is reached, 0 for the one that plays; on the other graphs the Overall Motion
     Similarity to the best fitting of the motions above, over the usual one.

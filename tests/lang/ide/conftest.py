@@ -8,8 +8,9 @@ import pytest
 from mlmg_lang.catalog import Catalog
 from mlmg_lang.diagnostics import Diagnostic
 from mlmg_lang.front_end import Analysis, analyse
-from mlmg_lang.ide.completion import Completion, Offers, Surroundings, complete
+from mlmg_lang.ide.completion import Surroundings, complete
 from mlmg_lang.ide.occurrences import Place
+from mlmg_lang.ide.offers import Completion, Offers
 from mlmg_lang.ide.rename import Edit
 from mlmg_lang.parsing.tokenize import tokenize
 from mlmg_lang.planning import flow

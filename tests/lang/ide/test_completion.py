@@ -8,7 +8,7 @@ import pytest
 
 from mlmg_lang.catalog import Catalog
 from mlmg_lang.front_end import analyse
-from mlmg_lang.ide.completion import Completion, What
+from mlmg_lang.ide.offers import Completion, What
 from mlmg_lang.source import Source, Span
 
 Texts = Callable[..., list[str]]
@@ -142,7 +142,8 @@ def test_of_a_name_without_its_second_quote_what_stands_behind_the_cursor_stays(
 
 
 def test_what_has_been_used_more_comes_first_among_equals(reference: Catalog) -> None:
-    from mlmg_lang.ide.completion import Offers, Surroundings, complete
+    from mlmg_lang.ide.completion import Surroundings, complete
+    from mlmg_lang.ide.offers import Offers
     from mlmg_lang.planning import flow
     from mlmg_lang.planning.names import Names
 
@@ -160,7 +161,8 @@ def test_what_has_been_used_more_comes_first_among_equals(reference: Catalog) ->
 def test_names_are_ranked_by_the_best_of_their_motions_then_by_use_then_as_the_library_has_them(
     reference: Catalog,
 ) -> None:
-    from mlmg_lang.ide.completion import Offered, Offers
+    from mlmg_lang.ide.completion import Offered
+    from mlmg_lang.ide.offers import Offers
     from mlmg_lang.planning.names import Names
 
     class Fitting:

@@ -13,8 +13,9 @@ from prompt_toolkit.completion import CompleteEvent, Completer
 from prompt_toolkit.completion import Completion as Shown
 from prompt_toolkit.document import Document
 
-from mlmg_lang.ide.completion import Completion, Offers, Surroundings, What, complete
+from mlmg_lang.ide.completion import Surroundings, complete
 from mlmg_lang.ide.fuzzy import matching
+from mlmg_lang.ide.offers import Completion, Offers, What
 from mlmg_lang.parsing.tokenize import tokenize
 from mlmg_lang.planning import flow
 from mlmg_lang.repl.conversation import is_dotted
