@@ -8,6 +8,7 @@ from collections.abc import Awaitable, Callable, Iterator, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import partial
+from itertools import count
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -46,6 +47,7 @@ class Snapshot:
     opened : all open texts, with their versions, by the names of their files.
     others : what is known of those that are not this one.
     kept : what features keep of a text from one answer to the next, by their names.
+    revision : the number of the analysis among all of the client, so that two can be told apart.
     """
 
     uri: str
@@ -56,6 +58,7 @@ class Snapshot:
     opened: Mapping[str, tuple[str, int]] = field(default_factory=dict)
     others: tuple[Analysis, ...] = ()
     kept: dict[str, Any] = field(default_factory=dict)
+    revision: int = 0
 
 
 @dataclass(eq=False)
@@ -67,7 +70,7 @@ class Document:
     name : the path of its file, or its URI where it has none.
     lines : see `texts.lines_of`.
     found : set when it is known which library it has.
-    analysis : the last that was finished; of the present text once `ready` is done.
+    analysis : the last that was finished; of the present text once `ready` is done. revision : its number.
     begun : whether a first is under way. stale : whether the next has to be made afresh.
     """
 
@@ -80,6 +83,7 @@ class Document:
     found: asyncio.Event = field(default_factory=asyncio.Event)
     shelved: Shelved | None = None
     analysis: Analysis | None = None
+    revision: int = 0
     begun: bool = False
     stale: bool = False
     kept: dict[str, Any] = field(default_factory=dict)
@@ -123,6 +127,7 @@ class Documents:
         self._get_ready = get_ready
         self._get_ahead = get_ahead
         self._open: dict[str, Document] = {}
+        self._revisions = count(1)
         self._warming: asyncio.Task[None] | None = None
 
     def all(self) -> list[Document]:
@@ -213,6 +218,7 @@ class Documents:
             self.opened(),
             tuple(one.analysis for one in others if one.analysis is not None and one.ready.done()),
             document.kept,
+            document.revision,
         )
 
     def analyse(self, document: Document, afresh: bool = False) -> None:
@@ -251,7 +257,7 @@ class Documents:
         if document.analysis is not None and document.analysis.question.catalog is not analysis.question.catalog:
             document.analysis = None
             clear_out()
-        document.analysis, document.stale = analysis, False
+        document.analysis, document.stale, document.revision = analysis, False, next(self._revisions)
         ready.set_result(analysis)
         if analysis.made.serial == 0:  # made afresh, so that nearly all of it will stay
             settle()

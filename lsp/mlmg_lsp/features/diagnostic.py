@@ -10,7 +10,7 @@ from mlmg_lsp.documents import Snapshot
 
 def diagnostic(snapshot: Snapshot, params: types.DocumentDiagnosticParams) -> types.DocumentDiagnosticReport:
     """Return all that is to be said of a script, or that it is the same as before."""
-    found = f"{snapshot.version}.{id(snapshot.analysis)}"
+    found = str(snapshot.revision)
     if params.previous_result_id == found:
         return types.RelatedUnchangedDocumentDiagnosticReport(found)
     return types.RelatedFullDocumentDiagnosticReport(diagnostics_of(snapshot), result_id=found)
