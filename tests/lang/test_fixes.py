@@ -87,3 +87,20 @@ def test_a_name_that_needs_quotes_is_offered_in_quotes(catalog: Any, fixed: Fixe
     library = catalog({"Body": {'hand on "hip"': (), "with": ()}}, {}, start="with")
     assert fixed('"hand_on_hip"', library) == '"hand on \\"hip\\""'
     assert fixed("WITH", library) == '"with"'
+
+
+@pytest.mark.parametrize(
+    ("script", "right"),
+    [
+        ("WALK with Sub WAVE for 2 sec", "WALK with Left-Hand WAVE for 2 sec"),
+        ("WALK with upper-body wave", "WALK with Left-Hand WAVE"),
+        ("let G(x) = WALK with Upper-Body x\nG(WAVE)", "let G(x) = WALK with Upper-Body x\nG(WAVE_HAND)"),
+    ],
+)
+def test_what_is_on_another_graph_is_said_to_be_on_that(script: str, right: str, fixed: Fixed, left_hand: Any) -> None:
+    assert fixed(script, left_hand) == right
+
+
+def test_a_graph_that_the_command_has_named_already_is_not_offered(fixed: Fixed, hands: Any) -> None:
+    script = "WALK with Right-Hand POINT with Left-Hand POINT"
+    assert fixed(script, hands) == script

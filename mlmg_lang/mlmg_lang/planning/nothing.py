@@ -42,7 +42,7 @@ def nothing_found(
     find = names.find if chosen else names.find_unqualified
     for name in _wanted(motion):
         if not any(find(graph, name.text) for graph in tried):
-            return _not_on(name, tried, names) if chosen else _out_of_room(name, room, names)
+            return _not_on(name, motion, tried, room, names) if chosen else _out_of_room(name, room, names)
     return _no_combination(motion, tried if chosen else (), source)
 
 
@@ -93,18 +93,24 @@ def _wanted(motion: syntax.Motion) -> Iterator[syntax.Name]:
 # --- a name that is elsewhere ---
 
 
-def _not_on(name: syntax.Name, tried: Sequence[str], names: Names) -> Diagnostic:
+def _not_on(name: syntax.Name, motion: syntax.Motion, tried: Sequence[str], room: Room, names: Names) -> Diagnostic:
     """Say that a name means nothing on the graph that was named, and what it means on others."""
     entry = _elsewhere(name, names)
     graphs = listed(tried, "or")
+    places = names.places(name.text)
     message = f"{_kind(entry)} `{entry.name}` is not on {graphs}"
-    advice = f"it is on {listed(names.places(name.text))}"
+    advice = f"it is on {listed(places)}"
     tags = _tags_of(entry, tried[0], names) if entry.kind is Kind.TAG else ()
     if tags:
         advice += f"; the same motions are {listed(tags)} on `{tried[0]}`"
-    near = (*tags, *names.nearest(name.text, tried[:1])[:1])
-    fixes = tuple(Fix(name.span, script_name(word), safe=False) for word in dict.fromkeys(near))
-    return Diagnostic("MS022", message, name.span, advice, fixes=fixes)
+    fixes = [Fix(name.span, script_name(tag), safe=False) for tag in tags]
+    if isinstance(motion, syntax.Qualified) and motion.motion.span == name.span and name.span.end == motion.span.end:
+        free = (graph for graph in room.allowed(names) if graph in places)
+        fixes += [Fix(motion.span, f"{script_name(graph)} {script_name(entry.name)}", safe=False) for graph in free]
+    if not fixes and (near := names.nearest(name.text, tried[:1])):
+        advice += f"; on `{tried[0]}` there is `{near[0]}`"
+        fixes.append(Fix(name.span, script_name(near[0]), safe=False))
+    return Diagnostic("MS022", message, name.span, advice, fixes=tuple(fixes))
 
 
 def _elsewhere(name: syntax.Name, names: Names) -> Entry:
