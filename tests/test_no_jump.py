@@ -18,8 +18,11 @@ import pytest
 
 import mlmg_lang
 from mlmg_runtime import rotations
+from mlmg_runtime.building.build import build_library
+from mlmg_runtime.building.reading.read_configuration import read_configuration
 from mlmg_runtime.clips import poses_from_bvh
-from mlmg_runtime.library import Library
+from mlmg_runtime.database import write_database
+from mlmg_runtime.library import Library, open_library
 from mlmg_runtime.skeleton import Poses, world_positions, world_transforms
 
 EXAMPLES = sorted((Path(__file__).parents[1] / "examples").glob("*.ms"))
@@ -108,6 +111,16 @@ def test_no_joint_of_the_whole_body_jumps_on_real_clips(seed, reference_library)
     draw = random.Random(seed)
     motions = draw.choices(reference_library.root.motions, k=12)
     check("\n".join(f"{motion} for {draw.randint(1, 5)} sec" for motion in motions), reference_library, creep=0.3)
+
+
+def test_no_joint_jumps_between_a_real_clip_and_itself_in_a_mirror(mocap, tmp_path):
+    clip = (mocap / "reference" / "Walk_01.bvh").as_posix()
+    configuration = tmp_path / "library.toml"
+    text = f'[library]\nclips = ["{clip}"]\n[clips.Mirrored]\nfile = "{clip}"\nmirror = true\n'
+    configuration.write_text(text, encoding="utf-8")
+    write_database(build_library(read_configuration(configuration), None, lambda *_: None), tmp_path / "two.mlmg")
+    lines = ["Mirrored for 4 sec", "Walk_01 for 3 sec", "Mirrored for 3 sec", "Walk_01 for 3 sec"]
+    check("\n".join(lines), open_library(tmp_path / "two.mlmg"))
 
 
 def too_far_apart(*entries: dict[str, Any] | None) -> bool:

@@ -117,7 +117,11 @@ def _poses(
             )
         poses = poses[first:end]
     if clip.mirror:
-        poses = mirrored(skeleton, poses)
+        try:
+            poses = mirrored(skeleton, poses)
+        except ValueError as error:
+            message = f"{clip.path} cannot be mirrored: {error}"
+            raise ConfigurationError(configuration.path, clip.line, message) from None
     return resample(poses, rate, frame_rate)
 
 

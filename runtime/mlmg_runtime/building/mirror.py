@@ -13,21 +13,37 @@ from mlmg_runtime.skeleton import Poses, Skeleton, world_transforms
 
 _SIDE = re.compile(r"(?i:left|right)|(?<![A-Za-z])[lrLR](?![A-Za-z])|^[LR](?=[A-Z])")
 _OTHER = {"left": "right", "right": "left", "l": "r", "r": "l"}
+# What the mirror makes of a rotation (w, x, y, z): the reflection in x = 0 before and after it.
+_REFLECTION = np.array([1.0, 1.0, -1.0, -1.0])
+_UNTURNED = np.array([1.0, 0.0, 0.0, 0.0])
+# With the reflection in x = 0 these make that in each of the three planes, and that in the origin.
+_HALF_TURNS = np.eye(4)
+# Bones shorter than this point nowhere; those that spread less across than this, against along, point one way.
+_NO_BONE = 1e-9
+_ONE_WAY = 0.05
+# What the pose of rest counts, against all frames together.
+_RESTING = 0.5
+# Bones of both sides are unlike if one, mirrored, is farther from the other than this, against the longest of the body.
+_UNLIKE = 0.25
 
 
 def mirrored(skeleton: Skeleton, poses: Poses) -> Poses:
     """Return poses mirrored in the plane x = 0, left and right joints by their names changing places.
 
     Whatever the local frames of the two sides look like, each joint is turned so that its bones point where the
-    mirrored bones of its partner point.
+    mirrored bones of its partner point. How it then lies about its bones is told by the poses: its local rotations
+    are like those of its partner, not half a turn from them, so that mirrored poses blend with others.
+
+    Raises
+    ------
+    ValueError
+        If the two sides of the skeleton are not alike.
     """
     partners = partner_joints(skeleton)
+    changes = _frame_changes(skeleton, poses)
     world, position = world_transforms(skeleton, poses)
-    reflected = world[:, list(partners)] * np.array([1.0, 1.0, -1.0, -1.0])
-    turned = np.stack(
-        [rotations.multiply(reflected[:, j], _frame_change(skeleton, j, p)) for j, p in enumerate(partners)],
-        axis=1,
-    )
+    reflected = world[:, list(partners)] * _REFLECTION
+    turned = rotations.multiply(reflected, changes)
     local = turned.copy()
     for joint in range(skeleton.travel + 1, len(skeleton.joints)):
         local[:, joint] = rotations.multiply(rotations.inverse(turned[:, skeleton.parents[joint]]), turned[:, joint])
@@ -53,21 +69,64 @@ def _other_side(name: str) -> Iterator[str]:
         yield name[: match.start()] + other + name[match.end() :]
 
 
-def _frame_change(skeleton: Skeleton, joint: int, partner: int) -> FloatArray:
-    """Return the turn that carries the bones of `joint` onto the mirrored bones of `partner`, in mirrored frames."""
+def _frame_changes(skeleton: Skeleton, poses: Poses) -> FloatArray:
+    """Return for each joint the turn C for which the mirrored rotation of its partner, times C, is its own.
+
+    Shape (n_joints, 4). Bones that point two ways determine C. Where there is one, two turns are possible, half a turn
+    about it apart; where there is none, the frames of the two sides mirror each other in one of their own planes, or in
+    all three. Of the possible ones that is taken after which the local rotations of the joint are most like what they
+    were, by the square of the quaternions' product: its mean over all frames, to which the pose of rest, with no
+    rotation, adds as much as half of them, for an arm may be raised all the time, and the other not.
+    """
+    partners, n_joints = partner_joints(skeleton), len(skeleton.joints)
+    changes = np.tile(_UNTURNED, (n_joints, 1))
+    possible = [_possible_changes(skeleton, joint) for joint in range(n_joints)]
+    # The uppermost joint has no parent to be seen from: its frame is taken to lie as the next below that is determined.
+    below = next((found[0] for found in possible[skeleton.travel :] if len(found) == 1), _UNTURNED)
+    for joint in skeleton.body:
+        found = possible[joint]
+        if joint == skeleton.travel:
+            likeness = np.abs(found @ below)
+        else:
+            above = changes[skeleton.parents[joint]]
+            local = rotations.multiply(rotations.inverse(above), poses.rotations[:, partners[joint]] * _REFLECTION)
+            asked = rotations.multiply(rotations.inverse(local), poses.rotations[:, joint])
+            likeness = np.mean((asked @ found.T) ** 2, axis=0) + _RESTING * (found @ above) ** 2
+        changes[joint] = found[likeness.argmax()]
+    return changes
+
+
+def _possible_changes(skeleton: Skeleton, joint: int) -> FloatArray:
+    """Return the turns that carry the bones of `joint` onto the mirrored ones of its partner, shape (n, 4)."""
     from scipy.spatial.transform import Rotation
 
-    own = [skeleton.joints[child].offset for child in skeleton.children[joint]]
     partners = partner_joints(skeleton)
-    other = [
-        np.multiply(skeleton.joints[partners[child]].offset, (-1.0, 1.0, 1.0)) for child in skeleton.children[joint]
-    ]
-    lengths = np.linalg.norm(own, axis=1) if own else np.empty(0)
-    if not own or lengths.max() < 1e-9:
-        return np.array([1.0, 0.0, 0.0, 0.0])
-    if len(own) == 1 or np.linalg.matrix_rank(np.asarray(own), tol=1e-6) == 1:
-        best = int(lengths.argmax())
-        turn, _ = Rotation.align_vectors(other[best][None], np.asarray(own[best])[None])
+    children = [c for c in skeleton.children[joint] if skeleton.parents[partners[c]] == partners[joint]]
+    own = np.array([skeleton.joints[c].offset for c in children]).reshape(-1, 3)
+    other = np.array([skeleton.joints[partners[c]].offset for c in children]).reshape(-1, 3) * (-1.0, 1.0, 1.0)
+    spread = np.linalg.svd(own, compute_uv=False)
+    lengths = np.minimum(np.linalg.norm(own, axis=1), np.linalg.norm(other, axis=1))
+    if not len(spread) or lengths.max() < _NO_BONE:
+        found = _HALF_TURNS
+    elif len(spread) > 1 and spread[1] > _ONE_WAY * spread[0]:
+        turn, _ = Rotation.align_vectors(other, own)
+        found = np.asarray(turn.as_quat(scalar_first=True))[None]
     else:
-        turn, _ = Rotation.align_vectors(np.asarray(other), np.asarray(own))
-    return np.asarray(turn.as_quat(scalar_first=True), dtype=np.float64)
+        longest = int(lengths.argmax())
+        found = _two_turns(own[longest], other[longest])
+    longest_bone = max(float(np.linalg.norm(skeleton.joints[j].offset)) for j in skeleton.body)
+    if np.linalg.norm(rotations.rotate(found[0], own) - other) > _UNLIKE * longest_bone:
+        names = dict.fromkeys(skeleton.names[j] for j in (joint, partners[joint]))
+        below = " and ".join(f"`{name}`" for name in names)
+        raise ValueError(f"the bones below {below} do not mirror each other; expected the OFFSETs of two like sides")
+    return found
+
+
+def _two_turns(bone: FloatArray, other: FloatArray) -> FloatArray:
+    """Return the turns that carry one bone to where another points, shape (2, 4): half a turn about that apart."""
+    axis = bone / np.linalg.norm(bone)
+    rough = rotations.rotate(_HALF_TURNS, axis)
+    # Rounded, so that of two half turns that come equally near the same is found for both sides.
+    nearest = int(np.round(rough @ other / np.linalg.norm(other), 6).argmax())
+    turn = rotations.multiply(rotations.between(rough[nearest], other), _HALF_TURNS[nearest])
+    return np.stack((turn, rotations.multiply(turn, np.array([0.0, *axis]))))

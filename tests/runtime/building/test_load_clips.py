@@ -97,6 +97,20 @@ def test_a_clip_can_be_there_twice_once_in_a_mirror(clips: Path) -> None:
     same_poses(loaded.poses["Llorts"], mirrored(loaded.skeleton, loaded.poses["Stroll"]))
 
 
+def test_a_body_whose_sides_are_unlike_is_not_mirrored(clips: Path, small_clips) -> None:
+    stroll = small_clips["Stroll"]
+    longer = [
+        replace(joint, offset=(9.0, 300.0, 9.0)) if "Left" in joint.name or joint.name.endswith("_L") else joint
+        for joint in stroll.joints
+    ]
+    for name in ("Stand", "Stroll"):
+        write(replace(small_clips[name], joints=tuple(longer)), clips / f"{name}.bvh")
+    load(clips, "")
+    with pytest.raises(ConfigurationError, match="do not mirror each other; expected the OFFSETs") as caught:
+        load(clips, "\n[clips.Stroll]\nmirror = true")
+    assert str(caught.value).startswith(f"{clips}/library.toml:2: {clips}/Stroll.bvh cannot be mirrored: the bones ")
+
+
 def test_z_up_clips_stand_upright_inside_the_library(clips: Path, small_clips) -> None:
     loaded = load(clips, '[library]\nup = "z"')
     same_poses(loaded.poses["Stand"], poses_from_bvh(small_clips["Stand"], "z"))

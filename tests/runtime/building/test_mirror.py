@@ -115,6 +115,68 @@ def test_a_joint_without_a_partner_is_its_own(name: str) -> None:
     assert partner_joints(named("Hips", name)) == (0, 1)
 
 
+def along_x() -> Skeleton:
+    """Return a body whose bones lie along x in its local frames: to the left along x, to the right against it."""
+    rows = [
+        ("Hips", -1, (0.0, 0.0, 0.0), POSITIONS),
+        ("Spine", 0, (16.0, 0.0, 0.0), ()),
+        ("Chest", 1, (9.0, -0.4, 0.0), ()),
+        ("Head", 2, (23.0, 0.0, 0.0), ()),
+        *(
+            row
+            for sign, letter, at in ((1.0, "L", 3), (-1.0, "R", 6))
+            for row in (
+                (f"UpperArm_{letter}", 2, (13.0, -0.2, 5.0 * sign), ()),
+                (f"LowerArm_{letter}", at + 1, (24.0 * sign, 0.0, 0.0), ()),
+                (f"Hand_{letter}", at + 2, (22.0 * sign, 0.0, 0.0), ()),
+            )
+        ),
+        ("UpperLeg_L", 0, (-2.0, -6.5, 0.0), ()),
+        ("UpperLeg_R", 0, (-2.0, 6.5, 0.0), ()),
+    ]
+    return Skeleton(tuple(Joint(*row) for row in rows))
+
+
+def standing(raised_rad: float) -> tuple[Skeleton, Poses]:
+    """Return that body upright, the right arm stretched out aside, the left one raised from there."""
+    skeleton = along_x()
+    turned = np.tile([1.0, 0.0, 0.0, 0.0], (3, len(skeleton.joints), 1))
+    at = {name: joint for joint, name in enumerate(skeleton.names)}
+    # In the frame of the hips the left lies against y, in that of the chest along z; x points up in both.
+    chest = np.array([0.5, 0.5, 0.5, 0.5])
+    turned[:, at["Hips"]] = rotations.about_axis("Z", np.array(np.pi / 2.0))
+    turned[:, at["Spine"]] = rotations.multiply(rotations.inverse(turned[0, at["Hips"]]), chest)
+    aside = rotations.about_axis("Y", np.array(-np.pi / 2.0))
+    raised = rotations.about_axis("Y", np.array(raised_rad - np.pi / 2.0))
+    turned[:, at["UpperArm_L"]] = raised
+    turned[:, at["UpperArm_R"]] = rotations.multiply(rotations.about_axis("Z", np.array(np.pi)), aside)
+    return skeleton, Poses(turned, np.zeros((3, 1, 3)))
+
+
+@pytest.mark.parametrize("raised_rad", [0.0, 1.0, 2.0])
+def test_local_rotations_in_the_mirror_are_those_of_the_other_side_whatever_way_the_frames_lie(
+    raised_rad: float,
+) -> None:
+    skeleton, poses = standing(raised_rad)
+    turned = np.degrees(rotations.angle_between(mirrored(skeleton, poses).rotations, poses.rotations)).max(axis=0)
+    arms = [skeleton.names.index(name) for name in ("UpperArm_L", "UpperArm_R")]
+    np.testing.assert_allclose(turned[arms], np.degrees(raised_rad), atol=1e-5)
+    assert np.delete(turned, arms).max() < 1e-5
+
+
+def test_sides_that_are_unlike_are_refused() -> None:
+    joints = list(body(False).joints)
+    joints[11] = replace(joints[11], offset=(-9.0, 40.0, 0.0))
+    skeleton = Skeleton(tuple(joints))
+    with pytest.raises(ValueError, match="the bones below `Hips` do not mirror each other; expected the OFFSETs"):
+        mirrored(skeleton, moving(skeleton, 4))
+    joints = list(body(False).joints)
+    joints[7] = replace(joints[7], offset=(-25.0, 0.5, 1.0))
+    skeleton = Skeleton(tuple(joints))
+    with pytest.raises(ValueError, match="the bones below `LeftArm` and `RightArm` do not mirror each other"):
+        mirrored(skeleton, moving(skeleton, 4))
+
+
 @pytest.mark.mocap
 @pytest.mark.parametrize("clip", ["reference/Walk_03", "cmu-29/29_02", "reference-6channel/Talk_01"])
 def test_on_a_real_body_each_joint_goes_near_where_its_partner_was_mirrored(mocap: Path, clip: str) -> None:
@@ -129,3 +191,21 @@ def test_on_a_real_body_each_joint_goes_near_where_its_partner_was_mirrored(moca
     twice = mirrored(skeleton, found)
     drift = rotations.angle_between(world_transforms(skeleton, twice)[0], world_transforms(skeleton, poses)[0])
     assert np.degrees(drift).max() < 1e-4
+
+
+@pytest.mark.mocap
+@pytest.mark.parametrize("clip", ["reference/*", "library/dataset-1_bye_*", "cmu-29/29_02", "cmu-135/135_09"])
+def test_on_a_real_body_the_spine_in_the_mirror_is_turned_as_before_and_sides_as_far_as_they_differ(
+    mocap: Path, clip: str
+) -> None:
+    paths = sorted(mocap.glob(f"{clip}.bvh"))
+    assert paths
+    for path in paths:
+        document = bvh.read(path)
+        skeleton, poses = skeleton_from_bvh(document), poses_from_bvh(document)
+        turned = np.degrees(rotations.angle_between(mirrored(skeleton, poses).rotations, poses.rotations))
+        middle = [j for j in skeleton.body[1:] if partner_joints(skeleton)[j] == j]
+        assert turned[:, middle].mean(axis=0).max() < 60.0
+        # Arms may be far from that: one waves, and the other hangs.
+        legs = [j for j, name in enumerate(skeleton.names) if "Leg" in name or "Foot" in name]
+        assert turned[:, legs].mean(axis=0).max() < 90.0
