@@ -12,6 +12,10 @@ from mlmg_lang.source import Span
 
 _WORDS: Final = frozenset({"NAME", "UNIT", "STRING", "UNCLOSED"})
 _CLEARS: Final = frozenset({"SEMICOLON", "OPEN", "CLOSE", "BAR"})
+_BEFORE_NUMBER: Final = frozenset({"FOR", "WAIT", "REPEAT"})
+"""What a number stands behind, and no motion."""
+_BEFORE_VALUE: Final = frozenset({"LEFT", "COMMA", "EQUALS"})
+"""What a motion may stand behind, or a duration."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,8 +55,8 @@ def cursor_at(tokens: Sequence[Token], offset: int) -> Cursor | None:
     if under is not None and under.type == "STRING" and under.span.end == offset:
         return None
     word, span, quoted = "", Span(offset, offset), False
-    if under is not None and _is_word(under):
-        n_words = 2 if _ends_in_hyphen(before) else 1
+    n_words = 0 if under is None else _n_words(before)
+    if under is not None and n_words:
         span = Span(before[-n_words].span.start, offset if under.type == "UNCLOSED" else under.span.end)
         quoted = under.type in ("STRING", "UNCLOSED")
         word = "".join(token.text for token in before[-n_words:])[: offset - span.start].lstrip('"')
@@ -75,6 +79,22 @@ def is_open(tokens: Sequence[Token]) -> bool:
 
 def _is_word(token: Token) -> bool:
     return token.type in _WORDS or token.text.isalpha() or token.text == "-"
+
+
+def _n_words(tokens: Sequence[Token]) -> int:
+    """Return how many of the last tokens are the name that is being written: one that lacks its quotes is several."""
+    if _ends_in_hyphen(tokens):
+        return 2
+    if tokens[-1].type == "INTEGER":
+        return 1 if _kind(tokens, -2) not in _BEFORE_NUMBER | _BEFORE_VALUE else 0
+    if not _is_word(tokens[-1]):
+        return 0
+    is_behind_number = _kind(tokens, -2) == "INTEGER" and tokens[-2].span.end == tokens[-1].span.start
+    return 2 if is_behind_number and _kind(tokens, -3) not in _BEFORE_NUMBER else 1
+
+
+def _kind(tokens: Sequence[Token], at: int) -> str:
+    return tokens[at].type if -at <= len(tokens) else ""
 
 
 def _ends_in_hyphen(tokens: Sequence[Token]) -> bool:

@@ -105,7 +105,11 @@ def test_a_statement_with_a_mistake_before_the_cursor_is_offered_nothing(texts: 
 
 @pytest.mark.parametrize(
     ("text", "word"),
-    [("WA¦", "WA"), ("WALK with Upper-¦", "Upper-"), ("WALK with Upper-Bo¦", "Upper-Bo"), ('"hand o¦', '"hand o')],
+    [
+        *(("WA¦", "WA"), ("WALK with Upper-¦", "Upper-"), ("WALK with Upper-Bo¦", "Upper-Bo"), ('"hand o¦', '"hand o')),
+        *(("14¦", "14"), ("14_¦", "14_"), ("not 14_0¦", "14_0"), ("GO(14_0¦", "14_0"), ("WALK for 2s¦", "s")),
+        *(("WALK for 2¦", ""), ("GO(2¦", ""), ("repeat 2¦", "")),
+    ],
 )
 def test_what_has_been_written_of_a_word_is_replaced(text: str, word: str, reference: Catalog) -> None:
     from mlmg_lang.ide.cursor import cursor_at
@@ -121,6 +125,17 @@ def test_what_has_been_written_of_a_word_is_replaced(text: str, word: str, refer
 def test_names_that_need_quotes_are_offered_in_quotes(texts: Texts, catalog: Any) -> None:
     odd = catalog({"Body": {"hand on hip": (), "with": (), "走路": ()}}, {}, start="走路")
     assert texts("¦", odd, playing="走路")[:3] == ['"hand on hip"', '"with"', "走路"]
+
+
+def test_a_name_that_begins_with_a_digit_is_offered_in_quotes_where_a_motion_may_stand(
+    texts: Texts, catalog: Any
+) -> None:
+    clips = catalog({"Body": {"14_02": (), "14_04": ()}, "Arm": {"14_02": ()}}, {"Arm": "Body"}, start="14_02")
+    for written in ("14¦", "14_0¦", "let X = 14_0¦", "choose { 3: 14_0¦", '"14_04" or not 14_0¦'):
+        assert texts(written, clips, playing="14_02")[:1] == ['"14_02"']
+    assert texts('"14_04" with Arm 14_¦', clips, playing="14_02")[:1] == ['"14_02"']
+    assert texts('"14_02" for 14¦', clips, playing="14_02") == ["sec", "ms", "min", "frames", "cycles"]
+    assert texts("repeat 14¦", clips, playing="14_02") == []
 
 
 def test_behind_a_quote_names_alone_are_offered_and_all_in_quotes(texts: Texts, catalog: Any) -> None:

@@ -4,6 +4,7 @@ import json
 import shlex
 import shutil
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -12,6 +13,7 @@ import pytest
 import mlmg_lang
 from mlmg_lang.commands import mlmgc
 from mlmg_lang.repl.conversation import Conversation
+from mlmg_lang.repl.desk import Desk
 from mlmg_lang.repl.dot_commands import DOT_COMMANDS
 from mlmg_lang.repl.reply import Reply
 from mlmg_lang.repl.terminal.toolbar import toolbar
@@ -172,6 +174,18 @@ def test_candidates_are_what_each_would_cost_and_the_one_that_is_then_taken(say:
     (done,) = say("IDLE with Upper-Body TALK").data["statements"]
     assert done["motions"] == {graph: one["motion"] for graph, one in taken.items()}
     assert done["arrive"] - done["begin"] == pytest.approx(taken["Upper-Body"]["seconds"], abs=2e-3)
+
+
+def test_candidates_of_a_name_alone_are_told_without_its_quotes(demo_library: Library) -> None:
+    root = demo_library.root
+    numbers = {motion: f"14_{at:02}" for at, motion in enumerate(root.motions)}
+    numbered = replace(root, tags={motion: (*root.tags[motion], number) for motion, number in numbers.items()})
+    library = replace(demo_library, by_name={**demo_library.by_name, root.name: numbered})
+    conversation = Conversation(Desk(Session(library), lambda *_: ""))
+    for line in (".candidates 14_02", '.candidates "14_02"', '.candidates "14_02" once'):
+        (layer,) = conversation.say(line).data["layers"]
+        assert [one["motion"] for one in layer["candidates"]] == [root.motions[2]]
+    assert "plan" in conversation.say(".explain 14_02").data
 
 
 def test_asking_plays_nothing(say: Say, conversation: Conversation) -> None:

@@ -12,7 +12,7 @@ from typing import Final
 
 from mlmg_lang.diagnostics import Diagnostic
 from mlmg_lang.parsing.line_parser import Stuck, read
-from mlmg_lang.parsing.mistakes import durations, heads, motions, signs, words
+from mlmg_lang.parsing.mistakes import durations, heads, motions, names, signs, words
 from mlmg_lang.parsing.mistakes.mistake import Mistake, expected, found, mistake
 from mlmg_lang.parsing.mistakes.one_edit import one_edit
 from mlmg_lang.parsing.syntax import Line
@@ -72,6 +72,7 @@ _RULES: Final[tuple[Callable[[Stuck], Mistake | None], ...]] = (
     words.wrong_case,
     words.comes_next,
     words.word_of_other_languages,
+    names.clip_file,
     durations.how_often,
     durations.odd_number,
     durations.number_of_other_languages,
@@ -79,7 +80,7 @@ _RULES: Final[tuple[Callable[[Stuck], Mistake | None], ...]] = (
     durations.two_quantities,
     durations.duration_first,
     heads.weight_not_whole,
-    signs.name_from_digit,
+    names.name_from_digit,
     durations.word_before_number,
     words.misspelt_before_number,
     durations.for_missing,

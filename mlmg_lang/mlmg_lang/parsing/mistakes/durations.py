@@ -70,7 +70,7 @@ def number_of_other_languages(stuck: Stuck) -> Mistake | None:
         return None
     span = across(number, name)
     written = stuck.source.slice(span)
-    if not _OTHER_NUMBER.fullmatch(written):
+    if not _OTHER_NUMBER.fullmatch(written) or not _can_be_number(stuck):
         return None
     right = spelled(float(written))
     if float(right) == 0 or len(right) > 12:
@@ -83,6 +83,11 @@ def number_of_other_languages(stuck: Stuck) -> Mistake | None:
     meant = _with_harmless(stuck, right, span)
     return mistake("MS017", f"`{written}` is not a number in Motion Script", span, f"write `{right}`",
                    Fix(span, right, safe=True), meant=meant)  # fmt: skip
+
+
+def _can_be_number(stuck: Stuck) -> bool:
+    """Return whether a number may stand before the place, or only the name of a motion, which has digits too."""
+    return stuck.type(-2) in ("FOR", "WAIT", "REPEAT") or stuck.type(1) in ("UNIT", "COLON")
 
 
 def _with_harmless(stuck: Stuck, right: str, span: Span) -> tuple[Token, ...]:

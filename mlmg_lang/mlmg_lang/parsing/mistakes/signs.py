@@ -1,4 +1,4 @@
-"""Mistakes in characters: signs that mean nothing, or nothing here, and names that begin with a digit."""
+"""Mistakes in characters: signs that mean nothing, or nothing here."""
 
 from __future__ import annotations
 
@@ -39,22 +39,6 @@ _ELSEWHERE: Final[Mapping[str, tuple[str, str]]] = MappingProxyType(
     }
 )
 """Signs of the language: where they belong, and what to write instead."""
-
-
-def name_from_digit(stuck: Stuck) -> Mistake | None:
-    """`3d_walk`."""
-    at = next((stuck.at + offset for offset in (0, -1) if stuck.type(offset) in NUMBERS), None)
-    if at is None or at + 1 >= len(stuck.tokens):
-        return None
-    number, name = stuck.tokens[at : at + 2]
-    if name.type != "NAME" or name.span.start != number.span.end:
-        return None
-    if at and stuck.tokens[at - 1].type in ("FOR", "WAIT", "EQUALS"):
-        return None
-    span, quoted = across(number, name), f'"{number.text}{name.text}"'
-    meant = replaced(stuck, at, Token("STRING", quoted, span), n=2)
-    message = "a name without quotes begins with a letter or `_`"
-    return mistake("MS003", message, span, f"write `{quoted}`", Fix(span, quoted, safe=True), meant=meant)
 
 
 def stray_character(stuck: Stuck) -> Mistake | None:

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from mlmg_lang.explaining.tree import table
+from mlmg_lang.parsing.lexical import script_name
 from mlmg_lang.planning.resolved import LeftOut
 from mlmg_lang.repl.desk import Desk
 from mlmg_lang.repl.reply import Refusal, Reply
@@ -17,7 +18,7 @@ def candidates(desk: Desk, argument: str) -> Reply:
     """Tell what a command could take on each graph: how soon, at what cost, and what it would take."""
     if not argument:
         raise Refusal("name a command, as in `.candidates WALK with Upper-Body TALK`")
-    analysis = desk.session.analyse(argument)
+    analysis = desk.session.analyse(_command(desk, argument))
     if analysis.resolved is None:
         return refused_by_compiler(desk, analysis.source, analysis.diagnostics)
     layers = outlook(desk.session, analysis.resolved)
@@ -31,7 +32,7 @@ def explain(desk: Desk, argument: str) -> Reply:
     """Tell the plan of a command from here: how it is understood, what it could take, how long that will take."""
     if not argument:
         raise Refusal("name a command, as in `.explain WALK with Upper-Body TALK`")
-    analysis = desk.session.analyse(argument)
+    analysis = desk.session.analyse(_command(desk, argument))
     if analysis.resolved is None:
         return refused_by_compiler(desk, analysis.source, analysis.diagnostics)
     # What explains takes as long to import as all the rest of a session does; most sessions ask for no explanation.
@@ -41,6 +42,11 @@ def explain(desk: Desk, argument: str) -> Reply:
 
     explanation = explanation_from_session(desk.session, analysis)
     return Reply(render_statements(explanation, colour=desk.colour), {"plan": plan_data(explanation)})
+
+
+def _command(desk: Desk, argument: str) -> str:
+    """Return what an argument says as a command: one name is enough, also without the quotes that a script needs."""
+    return script_name(argument) if desk.session.names.places(argument) else argument
 
 
 def _lines(layer: LayerOutlook) -> Iterator[str]:
