@@ -14,6 +14,8 @@ from mlmg_lang.diagnostics import Diagnostic, Severity
 from mlmg_lang.parsing import syntax
 from mlmg_lang.source import Span
 
+INSTEAD: Final = "MS057"
+"""What is said in place of what is wrong with a text at the same place: `GREET 3 sec`, where `for` is not meant."""
 _SLIPS: Final = frozenset({"MS021", "MS022", "MS026"})
 
 
@@ -34,6 +36,7 @@ def without_following(
         if (
             one.severity is not Severity.ERROR
             or one.span is None
+            or (one.code == INSTEAD and one.span in places)
             or (
                 not any(_touch(one.span, place, 0 if one.fixes else 2) for place in places)
                 and (not any(_is_about(one, line) for line in mended) or _is_slip(one, one.span, unsure))

@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, TypeVar
 
 from mlmg_lang.definitions.expand import any_broken, names_in, used_names
 from mlmg_lang.diagnostics import Diagnostic
+from mlmg_lang.following import INSTEAD
 from mlmg_lang.moving import by, moved
 from mlmg_lang.parsing import syntax
 from mlmg_lang.parsing.cutting import Balance, balance, cut
@@ -102,8 +103,9 @@ class Piece:
 
     @cached_property
     def told(self) -> tuple[Diagnostic, ...]:
-        """Return all that is wrong with it."""
-        return (*self.misread, *self.said)
+        """Return all that is wrong with it, of the same place what is said by who knows the definitions."""
+        known = {one.span for one in self.said if one.code == INSTEAD} if self.misread else ()
+        return (*(one for one in self.misread if one.span not in known), *self.said)
 
     @cached_property
     def solid(self) -> bool:

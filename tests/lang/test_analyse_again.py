@@ -84,6 +84,9 @@ DEFINING = (
         "xx\n",
         "Upper-Body x\n",
         "H(1 sec)\n",
+        "G(x) 3 sec\n",
+        "x 3 sec\n",
+        "let x = WALK for 2 sec\n",
         "let\n",
         "let (\n",
         "use\n",
@@ -501,6 +504,16 @@ def test_a_slip_of_a_name_that_is_defined_now_is_told_of_in_a_line_with_another_
     text = "Wuppe\uff03(IDLE, 3 sec)\nIDLE for 1 sec\nTALK for 1 sec\n"
     again = check(analyse(Source(text), library), f"{text}let Wuppy = WALK\n", library)
     assert "MS021" in {one.code for one in again.diagnostics}
+
+
+def test_where_a_duration_belongs_is_told_as_soon_as_the_definition_before_it_says_how_long(
+    libraries: Mapping[str, Any],
+) -> None:
+    library = libraries["reference"]
+    before = analyse(Source("let GO = WALK\nGO 3 sec\n"), library)
+    again = check(before, "let GO(t = 2 sec) = WALK for t\nGO 3 sec\n", library)
+    assert [one.code for one in (*before.diagnostics, *again.diagnostics)] == ["MS010", "MS057"]
+    assert [one.code for one in check(again, "let GO = WALK\nGO 3 sec\n", library).diagnostics] == ["MS010"]
 
 
 LONG_BODY = "WALK for 2 sec\nIDLE for 2 sec\n" * 50

@@ -179,11 +179,9 @@ class Expander:
         if let is None or signature is None or not signature.lasts:
             return None
         if command.duration is not None or command.once is not None:
-            span = command.once or (command.duration.span if command.duration is not None else command.span)
-            fix = Fix(Span(motion.span.end, span.end), "", safe=False)
-            message = f"`{let.name.text}` says itself how long it lasts"
-            note = Note("it is defined here", let.name.span)
-            raise self._fail(Diagnostic("MS057", message, span, "take this out", (note,), (fix,)))
+            from mlmg_lang.definitions.lasting import lasts_already
+
+            raise self._fail(lasts_already(let, signature, motion, command))
         values = self._values(motion, let, signature, {}, 0)
         duration = self._amount(let.command.duration, values)
         body = self._motion(let.command.motion, values, 1)

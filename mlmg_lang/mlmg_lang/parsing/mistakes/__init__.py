@@ -70,6 +70,7 @@ def explain(stuck: Stuck) -> Mistake:
 
 _RULES: Final[tuple[Callable[[Stuck], Mistake | None], ...]] = (
     words.wrong_case,
+    durations.time_of_beginning,
     words.comes_next,
     words.word_of_other_languages,
     names.clip_file,

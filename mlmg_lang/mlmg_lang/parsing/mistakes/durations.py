@@ -140,6 +140,22 @@ def duration_first(stuck: Stuck) -> Mistake | None:
     return mistake("MS010", "how long comes last, after `for`", amount, f"write `{right}`", fix, meant=meant)
 
 
+def time_of_beginning(stuck: Stuck) -> Mistake | None:
+    """`at 5 sec WALK`, `after 5 sec WALK`."""
+    if stuck.at > 1 or len(stuck.tokens) < 3:
+        return None
+    word, number, unit, *rest = stuck.tokens
+    if word.text.lower() not in ("at", "after", "in") or number.type not in NUMBERS or unit.text not in UNITS:
+        return None
+    waits = f"wait {number.text} {unit.text}"
+    span = across(word, unit)
+    message = "a statement begins when the one before it has ended; no word says when"
+    if not rest:
+        return mistake("MS010", message, span, f"to let time pass, write `{waits}`", Fix(span, waits, safe=False))
+    advice = f"to let time pass before it, write `{waits};`"
+    return mistake("MS010", message, span, advice, Fix(span, f"{waits};", safe=False), meant=tuple(rest))
+
+
 def two_quantities(stuck: Stuck) -> Mistake | None:
     """`1 min 30 sec`."""
     first, unit, second, unit_2 = (stuck.token(offset) for offset in (-2, -1, 0, 1))

@@ -20,6 +20,8 @@ from mlmg_lang.spelling import is_slip_of, listed
 
 _BEGIN: Final = frozenset({"let", "use", "repeat", "choose", "wait", "end"})
 """Words that begin a statement."""
+_BEHIND_COUNT: Final = frozenset({"times", "time", "x", ":"})
+"""What people write behind how often."""
 
 
 def wrong_case(stuck: Stuck) -> Mistake | None:
@@ -166,16 +168,35 @@ def head_without_body(stuck: Stuck) -> Mistake | None:
     """`repeat 3 WALK`, `repeat { ... }`, `repeat twice { ... }`."""
     first = stuck.tokens[0]
     if first.type == "REPEAT":
-        advice = "write `repeat 3 { ... }`"
         if "INTEGER" in stuck.accepts:
             return _count_missing(stuck)
-        message = f"`repeat {stuck.tokens[1].text}` is followed by its statements in `{{ }}`, found {found(stuck)}"
-        return mistake("MS013", message, stuck.span, advice, brace=Brace.MISSING)
+        return _after_count(stuck)
     if first.type == "CHOOSE":
         advice = "write `choose { ... | ... }`"
         message = f"`choose` is followed by its branches in `{{ }}`, found {found(stuck)}"
         return mistake("MS013", message, stuck.span, advice, brace=Brace.MISSING)
     return None
+
+
+def _after_count(stuck: Stuck) -> Mistake:
+    """Say what stands between `repeat 3` and its braces: `repeat 3 times {`, `repeat 3: {`, `repeat 3x {`."""
+    count, word = stuck.tokens[1], stuck.token(0)
+    message = f"`repeat {count.text}` is followed by its statements in `{{ }}`, found {found(stuck)}"
+    advice = f"write `repeat {count.text} {{ ... }}`"
+    if word is None or stuck.left > 1 or word.text.lower() not in _BEHIND_COUNT:
+        return mistake("MS013", message, stuck.span, advice, brace=Brace.MISSING)
+    fix = Fix(Span(count.span.end, word.span.end), "", safe=True)
+    return mistake("MS013", message, word.span, advice, fix, meant=replaced(stuck, stuck.at))
+
+
+def _in_parentheses(stuck: Stuck, number: Token) -> Mistake:
+    """`repeat(3) {`, `repeat (3) times {`."""
+    first, last = stuck.tokens[1], stuck.tokens[-1]
+    span = across(first, last)
+    fix = Fix(Span(stuck.tokens[0].span.end, span.end), f" {number.text}", safe=True)
+    message = "how often is said without parentheses"
+    advice = f"write `repeat {number.text} {{ ... }}`"
+    return mistake("MS010", message, span, advice, fix, meant=(stuck.tokens[0], replace(number, span=span)))
 
 
 def _count_missing(stuck: Stuck) -> Mistake:
@@ -184,8 +205,13 @@ def _count_missing(stuck: Stuck) -> Mistake:
     if number is None:
         message = "`repeat` needs a number after it: how often"
         return mistake("MS010", message, stuck.tokens[0].span, "write `repeat 3 { ... }`")
+    if [token.type for token in stuck.tokens[1:4]] == ["LEFT", "INTEGER", "RIGHT"] and (
+        {token.text.lower() for token in stuck.tokens[4:]} <= _BEHIND_COUNT
+    ):
+        return _in_parentheses(stuck, stuck.tokens[2])
     message = f"`repeat` needs a whole number after it, found `{number.text}`"
-    count = IN_WORDS.get(number.text.lower(), number.text.removesuffix(".0"))
+    word = number.text.lower()
+    count = IN_WORDS.get(word, word.removesuffix(".0").removeprefix("x"))
     if not count.isdigit() or stuck.left > 1:
         return mistake("MS010", message, number.span, "write `repeat 3 { ... }`")
     meant = replaced(stuck, stuck.at, replace(number, type="INTEGER", text=count))
