@@ -35,7 +35,7 @@ class Conversation:
         if not is_dotted(line):
             return telling_of(self.desk).reply(self.desk.session.enter(line))
         word, _, argument = line.strip()[1:].partition(" ")
-        return find_dot_command(word).run(self.desk, argument.strip())
+        return find_dot_command(word).say(self.desk, argument.strip())
 
     def _timed(self, reply: Reply, seconds: float) -> Reply:
         if not self.desk.settings.time:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -72,6 +73,7 @@ class Desk:
     allowed: tuple[Path, ...] = ()
     _library_file: _FileState = field(default=None, init=False)
     _told_file: _FileState = field(default=None, init=False)
+    _written: dict[str, _FileState] = field(default_factory=dict, init=False)
     _replaced: list[_Replacement] = field(default_factory=list, init=False)
     _taken_back: list[_Replacement] = field(default_factory=list, init=False)
 
@@ -96,6 +98,14 @@ class Desk:
         news = self.library_changed and now != self._told_file
         self._told_file = now
         return news
+
+    def has_written(self, path: Path) -> None:
+        """Remember a file as this conversation has just written it."""
+        self._written[os.path.realpath(path)] = _state_of(path)
+
+    def may_write(self, path: Path) -> bool:
+        """Return whether nothing is lost if a file is written: it is not there, or as this conversation wrote it."""
+        return not path.is_file() or self._written.get(os.path.realpath(path)) == _state_of(path)
 
     def allow_files_of(self, script: Path) -> None:
         """Let what is loaded from a script use the files that the script itself may use."""

@@ -13,6 +13,20 @@ class Refusal(Exception):
 
 
 @dataclass(frozen=True, slots=True)
+class Question:
+    """What a person at a terminal is asked before a line is done.
+
+    Attributes
+    ----------
+    asked : in a sentence. line : says that it be done. left : what is told if the answer is no.
+    """
+
+    asked: str
+    line: str
+    left: str
+
+
+@dataclass(frozen=True, slots=True)
 class Reply:
     """A reply.
 
@@ -22,9 +36,11 @@ class Reply:
     data : the same for a program; what is in it is written in docs/repl.md.
     ok : False if what was asked has not been done.
     leaves : whether this ends the conversation.
+    question : what a face with a person before it asks in place of the text, which tells others what to say instead.
     """
 
     text: str = ""
     data: Mapping[str, Any] = field(default_factory=lambda: MappingProxyType({}))
     ok: bool = True
     leaves: bool = False
+    question: Question | None = None

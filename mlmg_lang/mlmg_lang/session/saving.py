@@ -43,7 +43,7 @@ def script_from_session(session: Session, name: str = "<session>", files: Files 
     name : of the file that it is to be written to. files : where those are found from there that it uses; if not
         given, where the session finds them.
     """
-    if session.n_seconds == 0.0 and not any(turn.deeds for turn in session.turns):
+    if not has_played(session):
         return None
     wanted = session.stage.finish()
     entered = "\n".join(turn.text.rstrip() for turn in session.turns)
@@ -53,6 +53,11 @@ def script_from_session(session: Session, name: str = "<session>", files: Files 
         if plan is not None:
             return SavedScript(text + "\n", plan, as_entered)
     raise AssertionError("what was played command by command can be played again")
+
+
+def has_played(session: Session) -> bool:
+    """Return whether there is something to save."""
+    return session.n_seconds > 0.0 or any(turn.deeds for turn in session.turns)
 
 
 def _plan(source: Source, files: Files, session: Session, wanted: Timeline) -> ResolvedPlan | None:

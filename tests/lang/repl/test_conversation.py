@@ -14,7 +14,7 @@ import mlmg_lang
 from mlmg_lang.commands import mlmgc
 from mlmg_lang.repl.conversation import Conversation
 from mlmg_lang.repl.desk import Desk
-from mlmg_lang.repl.dot_commands import DOT_COMMANDS
+from mlmg_lang.repl.dot_commands import DOT_COMMANDS, Takes
 from mlmg_lang.repl.reply import Reply
 from mlmg_lang.repl.terminal.toolbar import toolbar
 from mlmg_lang.session.session import Session
@@ -131,6 +131,13 @@ def test_every_command_has_help(name: str, say: Say) -> None:
         (".candidates", "name a command"),
         (".explain", "name a command"),
         (".", "there is no command"),
+        (".undo x", "expected a whole number from 1 on, as in `.undo 3`, found `x`"),
+        (".redo 0", "expected a whole number from 1 on, as in `.redo 3`, found `0`"),
+        *(
+            (f"{one.usage} now", f"`{one.usage}` takes no words after it, found `now`")
+            for one in DOT_COMMANDS
+            if one.takes is Takes.NOTHING
+        ),
     ],
 )
 def test_what_cannot_be_done_is_one_line_that_says_what_to_do(
@@ -297,7 +304,29 @@ def test_no_file_that_is_read_is_written_over(say: Say, own_library: Path, scrip
     for name in ("link.bvh", "../my scripts/a.ms", "../my scripts/lib.ms"):
         assert say(f".save {name}").text.endswith("this file is read; the output needs another name\n")
     assert {path: path.read_bytes() for path in before} == before
-    assert say(".undo", "WALK", ".save ../my scripts/a.ms").ok
+    assert say(".undo", "WALK", ".save! ../my scripts/a.ms").ok
+
+
+@pytest.mark.parametrize("name", ["mine.ms", "mine.bvh"])
+def test_a_file_that_was_there_before_is_replaced_only_if_that_is_said(name: str, say: Say, scripts: Path) -> None:
+    mine = scripts / name
+    mine.write_text("# by hand\n", encoding="utf-8")
+    reply = say("WALK", f".save {mine}")
+    assert not reply.ok
+    assert reply.text == f"error: {mine} is there already; `.save! {mine}` replaces it\n"
+    assert reply.question is not None
+    assert mine.read_text(encoding="utf-8") == "# by hand\n"
+    assert say(f".save! {mine}").ok
+    assert say("IDLE", f".save {mine}").ok
+    mine.write_text("# by hand, again\n", encoding="utf-8")
+    assert not say(f".save {mine}").ok
+    assert mine.read_text(encoding="utf-8") == "# by hand, again\n"
+
+
+def test_a_script_that_was_loaded_and_taken_back_is_not_lost(say: Say, scripts: Path) -> None:
+    before = (scripts / "a.ms").read_bytes()
+    assert not say(".load ../my scripts/a.ms", ".undo", "WALK", ".save ../my scripts/a.ms").ok
+    assert (scripts / "a.ms").read_bytes() == before
 
 
 @pytest.mark.parametrize("command", [".save", ".load", ".library"])
@@ -357,6 +386,20 @@ def test_what_plays_all_anew_can_be_taken_back_and_played_again(
     assert say(".redo").data["text"] == "IDLE"
     assert not say(".undo", ".undo", ".undo", ".undo").ok
     assert desk.session is old
+
+
+def test_as_many_entries_are_taken_back_and_played_again_as_is_said(say: Say, conversation: Conversation) -> None:
+    say("WALK for 1 sec", "IDLE for 1 sec", ".start talk01", "TALK for 1 sec")
+    reply = say(".undo 3")
+    assert reply.data["texts"] == ["TALK for 1 sec", ".start talk01", "IDLE for 1 sec"]
+    assert reply.text.count("took back: ") == 3
+    assert [turn.text for turn in conversation.desk.session.turns] == ["WALK for 1 sec"]
+    assert say(".redo 2").data["texts"] == ["IDLE for 1 sec", ".start talk01"]
+    fewer = say(".redo 7")
+    assert fewer.data["texts"] == ["TALK for 1 sec"]
+    assert "there were only 1, not 7\n" in fewer.text
+    assert len(say(".undo 99").data["texts"]) == 4
+    assert conversation.desk.session.n_seconds == 0.0
 
 
 def test_an_entry_after_a_start_was_taken_back_drops_it(say: Say, conversation: Conversation) -> None:

@@ -9,27 +9,50 @@ from mlmg_lang.rendering.wording import safe
 from mlmg_lang.repl.desk import Desk
 from mlmg_lang.repl.dot_commands.dot_command import path_of
 from mlmg_lang.repl.reply import Refusal, Reply
-from mlmg_lang.repl.telling import telling_of
+from mlmg_lang.repl.telling import MOST_DEEDS, telling_of
 from mlmg_lang.script_files import read_script
 from mlmg_lang.session.replaying import Replayed, replay
 from mlmg_lang.session.session import Turn
 from mlmg_runtime.library import Library, open_library
 
 
-def undo(desk: Desk, _argument: str) -> Reply:
-    """Take the last entry back, or what replaced the session after it."""
-    text = desk.undo_replacement() or _text(desk.session.undo)
-    if text is None:
+def undo(desk: Desk, argument: str) -> Reply:
+    """Take the last entry back, or what replaced the session after it; or several, one after the other."""
+    wanted = _times("undo", argument)
+    texts = _steps(wanted, lambda: desk.undo_replacement() or _text(desk.session.undo))
+    if not texts:
         raise Refusal("there is nothing to take back")
-    return _went(desk, "took back", text)
+    return _went(desk, "took back", texts, wanted)
 
 
-def redo(desk: Desk, _argument: str) -> Reply:
-    """Play again what was taken back last."""
-    text = _text(desk.session.redo) or desk.redo_replacement()
-    if text is None:
+def redo(desk: Desk, argument: str) -> Reply:
+    """Play again what was taken back last; or several, one after the other."""
+    wanted = _times("redo", argument)
+    texts = _steps(wanted, lambda: _text(desk.session.redo) or desk.redo_replacement())
+    if not texts:
         raise Refusal("there is nothing to play again; an entry after `.undo` drops what was taken back")
-    return _went(desk, "played again", text)
+    return _went(desk, "played again", texts, wanted)
+
+
+def _times(command: str, argument: str) -> int:
+    """Return how often a command is to be done: as often as it says, else once."""
+    if not argument:
+        return 1
+    try:
+        number = int(argument)
+    except ValueError:
+        number = 0
+    if number < 1:
+        raise Refusal(f"expected a whole number from 1 on, as in `.{command} 3`, found `{argument}`")
+    return number
+
+
+def _steps(wanted: int, step: Callable[[], str | None]) -> list[str]:
+    """Step so often, or as long as there is something; return what each step went over."""
+    texts: list[str] = []
+    while len(texts) < wanted and (text := step()) is not None:
+        texts.append(text)
+    return texts
 
 
 def _text(step: Callable[[], Turn | None]) -> str | None:
@@ -37,10 +60,15 @@ def _text(step: Callable[[], Turn | None]) -> str | None:
     return None if turn is None else turn.text
 
 
-def _went(desk: Desk, what: str, text: str) -> Reply:
+def _went(desk: Desk, what: str, texts: list[str], wanted: int) -> Reply:
+    """Return the reply to steps: what they went over in order, and whether there were fewer than wanted."""
     seconds = desk.session.n_seconds
-    told = f"{what}: {_line(text)}\n  {seconds:.1f} s of motion\n"
-    return Reply(told, {"text": text, "seconds": round(seconds, 3)})
+    lines = [f"{what}: {_line(text)}" for text in texts[:MOST_DEEDS]]
+    lines += [f"  ... and {len(texts) - MOST_DEEDS} more"] if len(texts) > MOST_DEEDS else []
+    lines += [f"  there were only {len(texts)}, not {wanted}"] if len(texts) < wanted else []
+    lines.append(f"  {seconds:.1f} s of motion")
+    data = {"text": texts[-1], "texts": texts, "seconds": round(seconds, 3)}
+    return Reply("".join(f"{line}\n" for line in lines), data)
 
 
 def _line(text: str) -> str:

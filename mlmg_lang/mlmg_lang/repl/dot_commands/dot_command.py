@@ -23,6 +23,7 @@ class Takes(StrEnum):
     SCRIPT = "FILE.ms"
     LIBRARY = "[FILE.mlmg]"
     NUMBER = "N"
+    TIMES = "[N]"
     SETTING = "[OPTION VALUE]"
     SWITCH = "[on|off]"
 
@@ -66,3 +67,15 @@ class DotCommand:
     def usage(self) -> str:
         """Return how it is written."""
         return f".{self.name} {self.takes.value}".rstrip()
+
+    def say(self, desk: Desk, argument: str) -> Reply:
+        """Do it, with what stands after it.
+
+        Raises
+        ------
+        Refusal
+            If it cannot be done, or if something stands after it that it does not take.
+        """
+        if argument and self.takes is Takes.NOTHING:
+            raise Refusal(f"`{self.usage}` takes no words after it, found `{argument}`")
+        return self.run(desk, argument)

@@ -15,9 +15,9 @@ from mlmg_lang.libraries import DEMO, is_demo
 from mlmg_lang.rendering.wording import safe
 from mlmg_lang.repl.desk import Desk
 from mlmg_lang.repl.dot_commands.dot_command import path_of
-from mlmg_lang.repl.reply import Refusal, Reply
+from mlmg_lang.repl.reply import Question, Refusal, Reply
 from mlmg_lang.script_files import used_files
-from mlmg_lang.session.saving import SavedScript, script_from_session
+from mlmg_lang.session.saving import SavedScript, has_played, script_from_session
 from mlmg_lang.session.session import Session
 from mlmg_runtime.files import atomic_output
 
@@ -30,24 +30,55 @@ _HEADING: Final = re.compile(r"^# mlmgc \S.* -o \S.* --start \S.*\n", re.MULTILI
 
 
 def save(desk: Desk, argument: str) -> Reply:
-    """Write what was played as motion (.bvh), or the script that plays it again (.ms)."""
+    """Write what was played as motion (.bvh), or the script that plays it again (.ms), if no file is lost by that."""
+    path = _output(desk, argument)
+    if desk.may_write(path):
+        return save_over(desk, argument)
+    there = f"{path} is there already"
+    question = Question(f"{there}. Replace it?", f".save! {argument}", f"{path} was left as it is")
+    told = f"{there}; `.save! {argument}` replaces it"
+    return Reply(f"error: {safe(told)}\n", {"problem": told}, ok=False, question=question)
+
+
+def save_over(desk: Desk, argument: str) -> Reply:
+    """Write what was played, over the file that is there."""
+    path = _output(desk, argument)
+    reply = _save_motion(desk, path) if path.suffix.lower() == ".bvh" else _save_script(desk, path)
+    desk.saved = desk.session.turns
+    desk.has_written(path)
+    return reply
+
+
+def _output(desk: Desk, argument: str) -> Path:
+    """Return the file that what was played is to be written to.
+
+    Raises
+    ------
+    Refusal
+        If it is none for a motion or a script, or is read, or if nothing has been played.
+    """
     path = path_of(argument)
     if path.suffix.lower() not in (".bvh", ".ms"):
         raise Refusal(f"name a file that ends in .bvh or .ms, as in `.save stroll.bvh`, found `{argument}`")
     _refuse_to_write_what_is_read(desk.session, path)
-    if path.suffix.lower() == ".bvh":
-        performance = _perform(desk, _script(desk.session))
-        _write(performance, path)
-        told = f"{safe(str(path))}: {performance.report['n_frames']} frames, {_seconds_of(performance):.1f} s\n"
-        data = {"file": str(path), "frames": performance.report["n_frames"]}
-    else:
-        script = _script(desk.session, str(path), used_files(path))
-        with atomic_output(path) as temporary:
-            temporary.write_text(_headed(script, desk, path), encoding="utf-8")
-        told = f"{safe(str(path))}: {_told(script)}\n"
-        data = {"file": str(path), "as_entered": script.as_entered}
-    desk.saved = desk.session.turns
-    return Reply(told, data)
+    if not has_played(desk.session):
+        raise _nothing_played()
+    return path
+
+
+def _save_motion(desk: Desk, path: Path) -> Reply:
+    performance = _perform(desk, _script(desk.session))
+    _write(performance, path)
+    n_frames = performance.report["n_frames"]
+    told = f"{safe(str(path))}: {n_frames} frames, {_seconds_of(performance):.1f} s\n"
+    return Reply(told, {"file": str(path), "frames": n_frames})
+
+
+def _save_script(desk: Desk, path: Path) -> Reply:
+    script = _script(desk.session, str(path), used_files(path))
+    with atomic_output(path) as temporary:
+        temporary.write_text(_headed(script, desk, path), encoding="utf-8")
+    return Reply(f"{safe(str(path))}: {_told(script)}\n", {"file": str(path), "as_entered": script.as_entered})
 
 
 def view(desk: Desk, argument: str) -> Reply:
@@ -116,8 +147,12 @@ def _refuse_to_write_what_is_read(session: Session, path: Path) -> None:
 def _script(session: Session, name: str = "<session>", files: Files | None = None) -> SavedScript:
     script = script_from_session(session, name, files)
     if script is None:
-        raise Refusal("nothing has been played yet")
+        raise _nothing_played()
     return script
+
+
+def _nothing_played() -> Refusal:
+    return Refusal("nothing has been played yet")
 
 
 def _write(performance: Performance, path: Path) -> None:

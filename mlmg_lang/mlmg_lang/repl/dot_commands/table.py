@@ -23,7 +23,8 @@ def find_dot_command(word: str) -> DotCommand:
     for one in DOT_COMMANDS:
         if one.name == word:
             return one
-    near = nearest(word, [one.name for one in DOT_COMMANDS])
+    # Nobody is led to write over a file by a slip.
+    near = nearest(word, [one.name for one in DOT_COMMANDS if not one.name.endswith("!")])
     meant = f"did you mean {listed([f'.{name}' for name in near], 'or')}?" if near else "`.help` tells of all"
     raise Refusal(f"there is no command `.{word}`; {meant}")
 
@@ -82,20 +83,21 @@ DOT_COMMANDS: Final[tuple[DotCommand, ...]] = (
     ),
     DotCommand(
         "undo",
-        Takes.NOTHING,
-        "take the last entry back",
-        "as often as there are entries; .start, .seed and .library are taken back too; .redo goes forward again",
+        Takes.TIMES,
+        "take the last entry back, or the last N",
+        ".undo 3\nas often as there are entries; .start, .seed and .library are taken back too; .redo goes forward",
         changing.undo,
     ),
-    DotCommand("redo", Takes.NOTHING, "play again what was taken back", "", changing.redo),
+    DotCommand("redo", Takes.TIMES, "play again what was taken back", ".redo 3", changing.redo),
     DotCommand("timeline", Takes.NOTHING, "what has been played when", "", asking.timeline),
     DotCommand(
         "save",
         Takes.OUTPUT,
         "write the motion, or the script that plays it again",
-        ".save stroll.bvh\n.save stroll.ms",
+        ".save stroll.bvh\n.save stroll.ms\na file that is there already is asked about; .save! replaces it",
         keeping.save,
     ),
+    DotCommand("save!", Takes.OUTPUT, "the same, over a file that is there", ".save! stroll.ms", keeping.save_over),
     DotCommand("load", Takes.SCRIPT, "play a script on from here", ".load stroll.ms", changing.load),
     DotCommand("start", Takes.MOTION, "start in another motion, and play all anew", ".start Idle_01", changing.start),
     DotCommand("seed", Takes.NUMBER, "other draws for choose, and play all anew", ".seed 7", changing.seed),

@@ -11,6 +11,7 @@ from prompt_toolkit import PromptSession
 from prompt_toolkit.auto_suggest import AutoSuggestFromHistory
 from prompt_toolkit.completion import ThreadedCompleter
 from prompt_toolkit.enums import EditingMode
+from prompt_toolkit.filters import is_searching
 from prompt_toolkit.formatted_text import ANSI
 from prompt_toolkit.history import FileHistory, History, InMemoryHistory
 from prompt_toolkit.key_binding import KeyBindings
@@ -93,12 +94,17 @@ class TerminalFace:
         return self.conversation.desk
 
     def _say(self, entry: str) -> Reply:
-        """Say an entry and print the reply; Ctrl-C stops it, and then nothing has been done."""
+        """Say an entry and print the reply, or ask; Ctrl-C stops it, and then nothing has been done."""
         try:
             reply = self.conversation.say(entry)
         except KeyboardInterrupt:
             reply = Reply("stopped; all is as it was before\n", ok=False)
-        self._print(reply.text)
+        if reply.question is None:
+            self._print(reply.text)
+            return reply
+        if self._agrees(safe(reply.question.asked)):
+            return self._say(reply.question.line)
+        self._print(f"{safe(reply.question.left)}\n")
         return reply
 
     def _read(self) -> str:
@@ -117,12 +123,15 @@ class TerminalFace:
         """Return whether the person really wants to leave; asked only if something would be lost."""
         if not self._desk.unsaved:
             return True
+        return self._agrees(f"{self._desk.session.n_seconds:.1f} s of motion are not saved. Leave?", ctrl_d=True)
+
+    def _agrees(self, asked: str, *, ctrl_d: bool = False) -> bool:
+        """Return whether the person says yes to a question; `ctrl_d` is what Ctrl-D means."""
         question: PromptSession[str] = PromptSession(input=self.input, output=self.output)
-        seconds = self._desk.session.n_seconds
         try:
-            answer = question.prompt(f"{seconds:.1f} s of motion are not saved. Leave? [y/N] ")
+            answer = question.prompt(f"{asked} [y/N] ")
         except EOFError:
-            return True
+            return ctrl_d
         except KeyboardInterrupt:
             return False
         return answer.strip().lower() in ("y", "yes")
@@ -139,6 +148,7 @@ class TerminalFace:
             completer=ThreadedCompleter(completer),
             complete_while_typing=True,
             auto_suggest=AutoSuggestFromHistory(),
+            search_ignore_case=True,
             history=history,
             bottom_toolbar=lambda: toolbar(self._desk, self._n_columns()),
             prompt_continuation=lambda width, _line, _wrapped: " " * max(width - 4, 0) + "... ",
@@ -178,7 +188,7 @@ def _keys() -> KeyBindings:
     """Return what Enter does: an entry that is open goes on in another line, any other is played."""
     keys = KeyBindings()
 
-    @keys.add("enter")
+    @keys.add("enter", filter=~is_searching)
     def _(event: KeyPressEvent) -> None:
         buffer = event.current_buffer
         text = buffer.document.text

@@ -17,7 +17,7 @@ from mlmg_lang.repl.terminal.completing import ScriptCompleter
 from mlmg_lang.repl.terminal.terminal import TerminalFace
 from mlmg_runtime.library import Library
 
-ENTER, CTRL_C, CTRL_D, ESCAPE, UP = "\r", "\x03", "\x04", "\x1b", "\x1b[A"
+ENTER, CTRL_C, CTRL_D, CTRL_R, ESCAPE, UP = "\r", "\x03", "\x04", "\x12", "\x1b", "\x1b[A"
 
 
 @pytest.fixture(autouse=True)
@@ -62,6 +62,21 @@ def test_leaving_with_something_unsaved_asks_and_stays_if_the_answer_is_no(
 
 def test_ctrl_c_at_the_question_stays(typed: Callable[[str], list[str]]) -> None:
     assert typed(f"WALK{ENTER}{CTRL_D}{CTRL_C}IDLE{ENTER}{CTRL_D}{CTRL_D}") == ["WALK", "IDLE"]
+
+
+def test_a_file_that_was_there_before_is_asked_about(typed: Callable[[str], list[str]], tmp_path: Path) -> None:
+    mine = tmp_path / "mine.ms"
+    mine.write_text("# by hand\n", encoding="utf-8")
+    for answer in (f"n{ENTER}", ENTER, CTRL_D, CTRL_C):
+        typed(f"WALK{ENTER}.save {mine}{ENTER}{answer}.quit{ENTER}y{ENTER}")
+        assert mine.read_text(encoding="utf-8") == "# by hand\n"
+    typed(f".save {mine}{ENTER}y{ENTER}.quit{ENTER}")
+    assert mine.read_text(encoding="utf-8").startswith("# mlmgc mine.ms ")
+
+
+def test_what_was_entered_is_searched_without_regard_to_case(typed: Callable[[str], list[str]]) -> None:
+    typed(f"WALK for 1 sec{ENTER}IDLE{ENTER}.quit{ENTER}y{ENTER}")
+    assert typed(f"{CTRL_R}walk{ENTER}{ENTER}.quit{ENTER}y{ENTER}")[-1] == "WALK for 1 sec"
 
 
 def test_an_open_block_goes_on_in_another_line(typed: Callable[[str], list[str]]) -> None:
