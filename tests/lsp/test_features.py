@@ -357,8 +357,17 @@ def test_after_any_edits_diagnostics_are_those_of_a_fresh_analysis(start, demo_l
 def test_hovering_over_a_mistake_tells_what_it_means(client):
     opened(client, "IDLE for 1 sec\nWLAK for 1 sec\n")
     hover = client.ask_at("hover", URI, 1, 2)
-    assert "MS021" in hover["contents"]["value"]
+    said = hover["contents"]["value"]
+    assert said.startswith("error: no tag or motion `WLAK` in this library\n\nhelp: ")
+    assert "MS021 No graph" in said
     assert hover["range"]["start"] == {"line": 1, "character": 0}
+
+
+def test_hovering_over_what_only_has_a_warning_tells_first_what_it_is(client):
+    opened(client, "let greet = WALK\nIDLE\n")
+    said = client.ask_at("hover", URI, 0, 5)["contents"]["value"]
+    assert said.startswith("let greet = WALK\n")
+    assert "warning: `greet` is defined" in said
 
 
 def test_a_mistake_can_be_explained_by_a_command_of_the_menu(client):

@@ -24,11 +24,12 @@ from mlmg_lsp.library_facts import LibraryFacts, configuration_of
 
 
 def hover(snapshot: Snapshot, params: types.HoverParams) -> types.Hover | None:
-    """Return what there is to say of what stands at a place, and what is meant by what is wrong with it."""
+    """Return what there is to say of what stands at a place, and of what is wrong with it: errors first."""
     offset = _offset(snapshot, params.position)
     said = (
+        hovers.hover_mistakes(snapshot.analysis, offset, errors=True),
         hovers.hover(snapshot.analysis, offset, _facts(snapshot)),
-        hovers.hover_mistakes(snapshot.analysis, offset),
+        hovers.hover_mistakes(snapshot.analysis, offset, errors=False),
     )
     found = [one for one in said if one is not None]
     if not found:

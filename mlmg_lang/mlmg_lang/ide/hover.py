@@ -12,6 +12,7 @@ from typing import Final, Protocol
 
 from mlmg_lang.analysis import Analysis
 from mlmg_lang.catalog import Catalog
+from mlmg_lang.diagnostics import Diagnostic, Severity
 from mlmg_lang.ide.occurrences import Occurrence, Sort, Statement, Symbol, occurrence_at, statements_at
 from mlmg_lang.ide.sayings import Understood, state_before, understood
 from mlmg_lang.ide.signature import described
@@ -24,6 +25,7 @@ from mlmg_lang.parsing.tokenize import tokenize
 from mlmg_lang.parsing.tokens import Token
 from mlmg_lang.planning import typed
 from mlmg_lang.planning.names import Names
+from mlmg_lang.rendering.wording import safe
 from mlmg_lang.rules import read_rule
 from mlmg_lang.source import Source, Span
 from mlmg_lang.spelling import joined, normal
@@ -78,13 +80,29 @@ def hover(analysis: Analysis, offset: int, anatomy: Anatomy | None = None) -> Ho
     return _quantity_at(analysis, statements, offset) or _word_at(analysis, offset)
 
 
-def hover_mistakes(analysis: Analysis, offset: int) -> Hover | None:
-    """Return what the diagnostics at an offset mean, each code once; None if there are none."""
-    wrong = {
-        one.code: one.span for one in analysis.diagnostics if one.span and one.span.start <= offset <= one.span.end
-    }
-    span = next(iter(wrong.values()), None)
-    return None if span is None else Hover(span, tuple(part for code in wrong for part in _of_rule(code)))
+def hover_mistakes(analysis: Analysis, offset: int, *, errors: bool) -> Hover | None:
+    """Return what the diagnostics at an offset say, and then what that means, each code once; None if there are none.
+
+    Parameters
+    ----------
+    errors : whether errors are told; else warnings and hints are.
+    """
+    wrong = [
+        one
+        for one in analysis.diagnostics
+        if one.span and one.span.start <= offset <= one.span.end and (one.severity is Severity.ERROR) == errors
+    ]
+    if not wrong or wrong[0].span is None:
+        return None
+    said = [part for one in wrong for part in _of_diagnostic(one)]
+    meant = [part for code in dict.fromkeys(one.code for one in wrong) for part in _of_rule(code)]
+    return Hover(wrong[0].span, (*said, *meant))
+
+
+def _of_diagnostic(one: Diagnostic) -> Iterator[Part]:
+    yield Part(f"**{one.severity.value}:** {safe(one.message)}")
+    if one.help:
+        yield Part(f"help: {safe(one.help)}")
 
 
 @cache

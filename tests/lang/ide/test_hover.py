@@ -10,7 +10,7 @@ from mlmg_lang.front_end import analyse, analyse_again
 from mlmg_lang.ide.hover import Hover, code, hover, hover_mistakes
 from mlmg_lang.ide.words import UNIT_SAYS, WORDS
 from mlmg_lang.parsing.amounts import UNITS
-from mlmg_lang.source import Source
+from mlmg_lang.source import Source, Span
 
 Says = Callable[..., list[str]]
 
@@ -245,9 +245,35 @@ def test_after_an_edit_the_same_is_said_as_of_the_text_afresh(marked, text):
 
 def test_what_is_wrong_at_a_place_is_told_with_what_it_means(marked: Callable[..., Any]) -> None:
     at = marked("IDLE for 2 sec\nWL¦AK for 2 sec\nTALK")
-    found = hover_mistakes(at.analysis, at.offset)
+    found = hover_mistakes(at.analysis, at.offset, errors=True)
     assert found is not None
     assert at.analysis.source.slice(found.span) == "WLAK"
-    assert found.parts[0].text.startswith("**MS021** No graph of the library has a motion or tag of this name")
-    assert found.parts[1].text.startswith("A script is read against one library")
-    assert hover_mistakes(at.analysis, 2) is None
+    said, helped, meant, why = (part.text for part in found.parts)
+    assert said == "**error:** no tag or motion `WLAK` in this library"
+    assert helped.startswith("help: ")
+    assert "`WALK`" in helped
+    assert meant.startswith("**MS021** No graph of the library has a motion or tag of this name")
+    assert why.startswith("A script is read against one library")
+    assert hover_mistakes(at.analysis, at.offset, errors=False) is None
+    assert hover_mistakes(at.analysis, 2, errors=True) is None
+
+
+def test_all_that_is_wrong_at_a_place_is_told_before_what_it_means(marked: Callable[..., Any]) -> None:
+    at = marked("WLAK¦ with TLAK")
+    between = replace(at.analysis, diagnostics=tuple(replace(one, span=Span(0, 9)) for one in at.analysis.diagnostics))
+    found = hover_mistakes(between, at.offset, errors=True)
+    assert found is not None
+    bold = [part.text[:9] for part in found.parts if part.text.startswith("**")]
+    assert bold == [
+        "**error**",
+        "**error**",
+        "**MS021**",
+    ]
+
+
+def test_a_warning_is_told_apart_from_mistakes(marked: Callable[..., Any]) -> None:
+    at = marked("let gr¦eet = WALK\nIDLE")
+    found = hover_mistakes(at.analysis, at.offset, errors=False)
+    assert found is not None
+    assert found.parts[0].text.startswith("**warning:** ")
+    assert hover_mistakes(at.analysis, at.offset, errors=True) is None
