@@ -264,11 +264,7 @@ def test_all_that_is_wrong_at_a_place_is_told_before_what_it_means(marked: Calla
     found = hover_mistakes(between, at.offset, errors=True)
     assert found is not None
     bold = [part.text[:9] for part in found.parts if part.text.startswith("**")]
-    assert bold == [
-        "**error**",
-        "**error**",
-        "**MS021**",
-    ]
+    assert bold == ["**error:*", "**error:*", "**MS021**"]
 
 
 def test_a_warning_is_told_apart_from_mistakes(marked: Callable[..., Any]) -> None:
