@@ -140,3 +140,8 @@ class MotionGraph:
         """Return the index of each motion's first transition, and their number at the end."""
         motions = np.arange(len(self.motions) + 1)
         return tuple(np.searchsorted(self.transitions["src_motion"], motions).tolist())
+
+    @cached_property
+    def rounds(self) -> dict[tuple[int, frozenset[int]], tuple[Transition, ...] | None]:
+        """Return the ways round that `playing.rounds` has found, by motion and what is allowed: it keeps them here."""
+        return {}

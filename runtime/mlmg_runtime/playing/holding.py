@@ -7,7 +7,8 @@ from collections.abc import Collection, Iterator, Sequence
 from mlmg_runtime.errors import PlayError
 from mlmg_runtime.motion_graph import USUAL_BRIDGE, MotionGraph, Position, Transition
 from mlmg_runtime.playing.likeness import Alike, Likeness
-from mlmg_runtime.playing.search import find_path
+from mlmg_runtime.playing.rounds import best_round, way_back
+from mlmg_runtime.playing.search import find_paths
 from mlmg_runtime.playing.timeline import Blend, Clip, Segment, play_along, play_clip
 
 
@@ -16,11 +17,11 @@ def stay(
 ) -> Iterator[Segment]:
     """Yield, without end, what `graph` plays from `time` on to stay in the motion `home`.
 
-    The motion is left as late as its own backward transitions allow. Where it has none, the shortest way round that
-    comes back to it is taken. Past the last of them it is blended back on the spot to before that, between the two most
-    alike windows up to where the way round would leave it; the way round is taken if these are farther apart than it
-    is, and than bridges usually are. Where there is no way round, a blend is made on the spot; a clip that is too short
-    for that stands still in its last frame.
+    The motion is left as late as its own backward transitions allow. Past the last of them it is blended back on the
+    spot to before that, between the two most alike windows up to where the shortest way round would leave it; the way
+    round is taken if these are farther apart than it is, and than bridges usually are. A motion without a backward
+    transition is held by the way round on which the largest share of the time passes in it. Where there is no way
+    round, a blend is made on the spot; a clip that is too short for that stands still in its last frame.
 
     Parameters
     ----------
@@ -57,8 +58,7 @@ def _come_back(
     likeness: Likeness, graph: MotionGraph, home: int, position: Position, time: int, allowed: Collection[int]
 ) -> Sequence[Segment]:
     """Return what leads back into the motion from where no backward transition of its own leads."""
-    path = find_path(graph, position, [home], allowed)
-    way = () if path is None else path.transitions
+    way = _way_home(graph, home, position, allowed)
     alike = _most_alike(likeness, graph, home, position, way)
     if alike is not None:
         begin, target = time + alike.leave - position.frame, Position(home, alike.enter + graph.window - 1)
@@ -71,6 +71,25 @@ def _come_back(
             f"no way leads back to {graph.motions[home]} on {graph.name} from {graph.motions[position.motion]}"
         )
     return _stand_still(graph, position, time)
+
+
+def _way_home(graph: MotionGraph, home: int, position: Position, allowed: Collection[int]) -> tuple[Transition, ...]:
+    """Return the way round from a position to before where the motion is left in time; if there is none, into it."""
+    loop, usual = latest_loop(graph, home), None
+    if loop is None:
+        usual = best_round(graph, home, allowed)
+    if usual is not None:
+        if position.motion == home and position.frame <= usual.leave:
+            return usual.transitions
+        way = way_back(graph, home, allowed, position, usual)
+        if way is not None:
+            return way
+    shortest: tuple[Transition, ...] = ()
+    for path in find_paths(graph, position, [home], allowed):
+        if loop is None or path.arrival.frame <= loop.src_frame:
+            return path.transitions
+        shortest = shortest or path.transitions
+    return shortest
 
 
 def _stand_still(graph: MotionGraph, position: Position, time: int) -> Sequence[Segment]:

@@ -10,6 +10,7 @@ from mlmg_runtime.library import Library
 from mlmg_runtime.motion_graph import MotionGraph, Position, Transition
 from mlmg_runtime.playing.holding import latest_loop, stay
 from mlmg_runtime.playing.likeness import Alike, Likeness
+from mlmg_runtime.playing.rounds import best_round, way_back
 from mlmg_runtime.playing.timeline import Blend, Clip, Segment, appended
 from mlmg_runtime.point_cloud import point_cloud, window_distances
 from mlmg_runtime.skeleton import Poses, world_positions
@@ -79,6 +80,13 @@ def test_past_its_loops_a_motion_is_held_by_the_shortest_way_round(motion_graph)
     assert departures(segments)[:4] == [(35, 9), (12, 5), (20, 9), (20, 9)]
 
 
+def test_past_its_loops_a_motion_is_led_to_before_them_though_a_shorter_way_leads_behind(motion_graph) -> None:
+    marks = [(0, 20, 0, 9), (0, 35, 1, 9), (1, 12, 0, 25), (1, 16, 0, 5)]
+    graph = motion_graph([40, 20], 3, marks)
+    segments = played(stay(NOTHING_ALIKE, graph, 0, Position(0, 22), 0, {0, 1}), 120)
+    assert departures(segments)[:3] == [(35, 9), (16, 5), (20, 9)]
+
+
 def test_a_way_round_passes_only_what_the_layers_below_allow(motion_graph) -> None:
     marks = [(0, 35, 1, 9), (1, 12, 0, 5), (0, 32, 2, 9), (2, 18, 0, 3)]
     graph = motion_graph([40, 20, 30], 3, marks)
@@ -107,12 +115,23 @@ def test_every_motion_of_a_library_can_be_held_from_wherever_it_is_entered(
 def expected(
     library: Library, graph: MotionGraph, home: int, position: Position, soonest, played: Blend
 ) -> Transition | None:
-    """Return the transition by which a motion is held; None for a blend on the spot, after a look at its windows."""
+    """Return the transition by which a motion is held; None for a blend on the spot, after a look at its windows.
+
+    Which ways round hold a motion that never leads into itself is tried by the tests of these.
+    """
     loop = latest_loop(graph, home)
     if loop is not None and position.motion == home and position.frame <= loop.src_frame:
         return loop
-    way = soonest(graph, position, [home], range(len(graph.motions))).transitions
-    if loop is None or position.motion != home:
+    everything = range(len(graph.motions))
+    if loop is None:
+        usual = best_round(graph, home, everything)
+        assert usual is not None
+        there = position.motion == home and position.frame <= usual.leave
+        return usual.transitions[0] if there else way_back(graph, home, everything, position, usual)[0]
+    way = soonest(graph, position, [home], everything).transitions
+    if way[-1].arrival.frame > loop.src_frame:
+        return played.transition
+    if position.motion != home:
         return way[0]
     points = world_positions(library.skeleton, library.poses(graph.motions[home]))[:, list(graph.joints)]
     cloud = point_cloud(points, graph.weights, graph.window)
@@ -146,7 +165,16 @@ def test_past_its_loops_a_motion_is_blended_back_if_that_is_hardly_seen(
     assert departures(segments)[:2] == ([(30, 6), (20, 9)] if blended else [(35, 9), (12, 5)])
 
 
-def test_a_motion_that_never_leads_into_itself_is_held_by_the_shortest_way_round(small_library: Library) -> None:
+def test_a_motion_that_never_leads_into_itself_is_held_by_the_way_round_on_which_it_is_shown_most(motion_graph) -> None:
+    marks = [(0, 24, 1, 9), (1, 12, 0, 20), (0, 90, 2, 9), (2, 30, 0, 9)]
+    graph = motion_graph([100, 20, 40], 3, marks)
+    segments = played(stay(NOTHING_ALIKE, graph, 0, Position(0, 21), 0, {0, 1, 2}), 300)
+    assert departures(segments)[:4] == [(90, 9), (30, 9), (90, 9), (30, 9)]
+
+
+def test_a_motion_that_never_leads_into_itself_is_not_blended_on_the_spot_if_a_way_leads_round(
+    small_library: Library,
+) -> None:
     graph = small_library.root
     home = graph.index["Reach"]
     assert latest_loop(graph, home) is None
