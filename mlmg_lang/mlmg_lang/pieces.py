@@ -52,6 +52,7 @@ class Piece:
     expanded : its items with what is defined put in. n_nodes : how large that has made them.
     statements : none without a library.
     said : what is wrong with what it means.
+    retold : what is told in place of `misread` and `said`, where there are spaces in names; else None.
     is_faulty : whether something may be wrong with its names.
     n_named : how much is said of them; -1 if it was not worked out, as there is too much before it.
     """
@@ -68,6 +69,7 @@ class Piece:
     n_nodes: int = 0
     statements: tuple[typed.Statement, ...] = ()
     said: tuple[Diagnostic, ...] = ()
+    retold: tuple[Diagnostic, ...] | None = None
     is_faulty: bool = False
     n_named: int = 0
 
@@ -104,6 +106,8 @@ class Piece:
     @cached_property
     def told(self) -> tuple[Diagnostic, ...]:
         """Return all that is wrong with it, of the same place what is said by who knows the definitions."""
+        if self.retold is not None:
+            return self.retold
         known = {one.span for one in self.said if one.code == INSTEAD} if self.misread else ()
         return (*(one for one in self.misread if one.span not in known), *self.said)
 

@@ -87,15 +87,28 @@ class Reader:
             n_named = len(named) if tells else -is_faulty
             said += named if tells else ()
         told = without_following(said, piece.misread, piece.items) if piece.misread else said
-        return replace(
+        understood = replace(
             piece,
             expanded=expanded,
             n_nodes=n_nodes,
             statements=statements,
             said=tuple(told),
+            retold=None,
             is_faulty=is_faulty,
             n_named=n_named,
         )
+        return replace(understood, retold=self._retold(understood)) if understood.told else understood
+
+    def _retold(self, piece: Piece) -> tuple[Diagnostic, ...] | None:
+        """Return what is wrong with a piece if it is told otherwise, as there are spaces in names; else None."""
+        names = self._question.names
+        if names is None:
+            return None
+        # Imported here, as sound scripts, which are most, do not need it.
+        from mlmg_lang.planning.binding.apart import told_of_names
+
+        retold = told_of_names(piece.told, piece.tokens, names)
+        return None if retold == piece.told else retold
 
     def _expanded(self, piece: Piece) -> tuple[tuple[Item, ...], int, list[Diagnostic]]:
         """Return what a piece says with what is defined put in, how large that has made it, and what is wrong."""

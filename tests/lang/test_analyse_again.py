@@ -116,6 +116,12 @@ BITS = (
     *(" ", "\n", "\r", "\r\n", "{", "}", "(", ")", "|", ";", ":", '"', "# x", "W", "_", "1", "”", "-", "\\", "=", ","),
     *("/*", "*/", "// ", " -- ", "\uff08", "\uff09", "\uff5b", "\uff5d", "\uff1b", "\uff03", "\uff12", "loop 2 {\n"),
     *("repeat 2 {\n", "choose {\n", "with TALK\n", "WLAK\n", "walk01\n", "let x = WALK\n", "# mlmg: ignore[MS047]\n"),
+    *(
+        "WALK with Upper Body TALK\n",
+        "Upper Body x\n",
+        "let x = WALK with upper body wave hand\n",
+        "let x = Upper body\n",
+    ),
 )
 JOINED = (
     *("WALK\n", "WALK\n", "IDLE for 1 sec\n", "with Upper-Body TALK\n", "    or IDLE\n", "  for 2 sec\n", "(\n", ")\n"),

@@ -7,6 +7,9 @@ from typing import Any
 
 import pytest
 
+from mlmg_lang.front_end import analyse
+from mlmg_lang.source import Source
+
 Fixed = Callable[..., str]
 
 
@@ -104,3 +107,44 @@ def test_what_is_on_another_graph_is_said_to_be_on_that(script: str, right: str,
 def test_a_graph_that_the_command_has_named_already_is_not_offered(fixed: Fixed, hands: Any) -> None:
     script = "WALK with Right-Hand POINT with Left-Hand POINT"
     assert fixed(script, hands) == script
+
+
+@pytest.mark.parametrize(
+    ("script", "right"),
+    [
+        ("Gehen schön for 2 sec", '"Gehen schön" for 2 sec'),
+        ("gehen Schön once", '"Gehen schön" once'),
+        ("sehr schnell laufen", '"Sehr schnell_laufen"'),
+        ("Stehen with Linke\tHand  winken", 'Stehen with "Linke Hand" WINKEN'),
+        ("let Gruß = Gehen schön\nGruß", 'let Gruß = "Gehen schön"\nGruß'),
+        ("Stehen and Gehen schön", 'Stehen and "Gehen schön"'),
+        (
+            'let Gruß = "Gehen schön" with linke hand wave for 1 sec',
+            'let Gruß = "Gehen schön" with "Linke Hand" wave for 1 sec',
+        ),
+    ],
+)
+def test_a_name_with_a_space_in_it_is_put_in_quotes(script: str, right: str, catalog: Any, fixed: Fixed) -> None:
+    whole = {"Stehen": (), "Gehen schön": (), "Sehr schnell_laufen": ()}
+    library = catalog({"Ganz": whole, "Linke Hand": {**whole, "Gruß": ("WINKEN",)}}, {"Linke Hand": "Ganz"}, "Stehen")
+    assert fixed(script, library) == right
+
+
+@pytest.mark.parametrize(
+    ("script", "is_safe"),
+    [
+        ("WALK with Upper Body TALK", True),
+        ("WALK with left hand wave", True),
+        ("wave hand", False),
+    ],
+)
+def test_to_leave_a_space_out_is_safe_where_no_word_beside_it_is_a_name(
+    script: str, is_safe: bool, left_hand: Any
+) -> None:
+    (told,) = (one for one in analyse(Source(script), left_hand).diagnostics if "there is a space" in one.message)
+    assert [fix.safe for fix in told.fixes] == [is_safe]
+
+
+def test_words_of_which_some_are_no_part_of_a_name_are_left_to_be_told_of_by_themselves(left_hand: Any) -> None:
+    told = analyse(Source("WALK with Upper Body Left-Hand WAVE"), left_hand).diagnostics
+    assert [one.code for one in told] == ["MS010"]

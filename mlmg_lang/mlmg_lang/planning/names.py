@@ -155,6 +155,17 @@ class Names:
             if match is not None:
                 yield from (entry.name for entry in (match.entry, *match.others))
 
+    def written_apart(self, words: Iterable[str]) -> tuple[str, ...]:
+        """Return the graphs, tags and motions that some words in a row are, however these are joined in them."""
+        return self._without_spaces.get("".join(map(_without_spaces, words)), ())
+
+    @cached_property
+    def _without_spaces(self) -> Mapping[str, tuple[str, ...]]:
+        found: dict[str, list[str]] = {}
+        for name in self._everything.names:
+            found.setdefault(_without_spaces(name), []).append(name)
+        return {letters: tuple(names) for letters, names in found.items()}
+
     def entries(self, graph: str) -> tuple[Entry, ...]:
         """Return what the tags on a graph stand for, then its motions."""
         return self._names[graph].entries
@@ -201,6 +212,10 @@ class Names:
     def spellings(self) -> tuple[str, ...]:
         """Return every motion and tag, once."""
         return tuple(dict.fromkeys(name for graph in self.graphs for name in self.spellings_on(graph)))
+
+
+def _without_spaces(name: str) -> str:
+    return "".join(folded(name).split())
 
 
 def _index(catalog: Catalog, graph: str) -> _Graph:

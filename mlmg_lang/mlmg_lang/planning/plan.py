@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Final
 
 from mlmg_lang.definitions.expand import told_from
 from mlmg_lang.definitions.gather import Definitions
 from mlmg_lang.diagnostics import Diagnostic, has_errors
+from mlmg_lang.moving import by, moved
 from mlmg_lang.parsing import syntax
 from mlmg_lang.parsing.amounts import seconds_from_quantity, unit_of
 from mlmg_lang.parsing.nesting import Make
@@ -83,11 +84,21 @@ class Planner:
             self.diagnostics += _clashes(let.name, self._scope.names)
             own = frozenset(normal(parameter.name.text) for parameter in let.parameters or ())
             scope = replace(self._scope, definitions=known, parameters=own)
-            self._report(unbound(let.command.motion, scope))
+            n_told = len(self.diagnostics)
+            if self._report(unbound(let.command.motion, scope)):
+                self.diagnostics[n_told:] = self._of_names(self.diagnostics[n_told:], let.span)
             self.diagnostics += spelling_hints(let.command.motion, scope)
             for parameter in let.parameters or ():
                 if parameter.default is not None and not isinstance(parameter.default, syntax.Quantity):
                     self._report(unbound(parameter.default, replace(scope, parameters=frozenset())))
+
+    def _of_names(self, told: Sequence[Diagnostic], span: Span) -> Sequence[Diagnostic]:
+        """Return what is wrong with a definition, of names with spaces in them each told once."""
+        from mlmg_lang.parsing.tokenize import tokenize
+        from mlmg_lang.planning.binding.apart import told_of_names
+
+        tokens = moved(tuple(tokenize(Source(self._source.slice(span)))), by(span.start))
+        return told_of_names(told, tokens, self._scope.names)
 
     def body(self, items: Iterable[syntax.Item]) -> tuple[typed.Statement, ...]:
         """Return the typed statements of a body."""

@@ -64,12 +64,6 @@ def _needless(pair: Pair) -> Diagnostic | None:
     return _say_needless(pair.node) if is_plain else None
 
 
-def _spaced(pair: Pair) -> Diagnostic | None:
-    joint = f"{pair.node.graph.text}_{pair.name.text}"
-    meant = next(pair.scope.names.spellings_of(joint), None) if not is_shouted(pair.node.graph) else None
-    return None if meant is None else _space_in_name(pair.node, meant)
-
-
 def _side_by_side(pair: Pair) -> Diagnostic | None:
     return _say_side_by_side(pair.node, pair.scope.names) if pair.is_known and not pair.inner else None
 
@@ -90,7 +84,6 @@ _RULES: Final[tuple[Callable[[Pair], Diagnostic | None], ...]] = (
     _with_parameter,
     _before_graph,
     _needless,
-    _spaced,
     _side_by_side,
     _with_definition,
     _with_once,
@@ -175,13 +168,6 @@ def _beside_parameter(node: syntax.Qualified, name: syntax.Name) -> Diagnostic:
     message = f"`{node.graph.text}` is a parameter, not a graph: a word is missing before `{name.text}`"
     advice = f"for both at once, write `{script_name(node.graph.text)} with {script_name(name.text)}`"
     return Diagnostic("MS025", message, node.span, advice, fixes=(Fix(place, "with ", safe=False),))
-
-
-def _space_in_name(node: syntax.Qualified, meant: str) -> Diagnostic:
-    """Say what `wave hand` is, where there is `WAVE_HAND`."""
-    written, right = f"{node.graph.text} {node.motion.name.text}", script_name(meant)
-    message = f"`{written}` is no name: there is a space in it"
-    return Diagnostic("MS021", message, node.span, f"write `{right}`", fixes=(Fix(node.span, right, safe=False),))
 
 
 def _for_end(node: syntax.Qualified) -> Diagnostic:
