@@ -1,5 +1,11 @@
 ;; Emacs with lsp-mode: in init.el.
+(require 'project)
+(defun motion-script-project (folder)
+  "Return the project of FOLDER: the nearest that has an mlmg.toml."
+  (let ((root (locate-dominating-file folder "mlmg.toml")))
+    (and root (cons 'transient root))))
 (define-derived-mode motion-script-mode prog-mode "Motion Script"
+  (add-hook 'project-find-functions #'motion-script-project nil t)
   (setq-local comment-start "# ")
   (setq-local comment-start-skip "#+\\s-*"))
 (add-to-list 'auto-mode-alist '("\\.ms\\'" . motion-script-mode))

@@ -27,5 +27,10 @@ vim.api.nvim_create_autocmd("FileType", {
       vim.lsp.buf_attach_client(event.buf, client)
     end
     vim.bo.commentstring = "# %s"
+    vim.bo.omnifunc = "v:lua.vim.lsp.omnifunc"
+    vim.keymap.set("n", "K", vim.lsp.buf.hover, { buffer = event.buf })
+    vim.keymap.set("n", "grn", vim.lsp.buf.rename, { buffer = event.buf })
+    vim.keymap.set("n", "gra", vim.lsp.buf.code_action, { buffer = event.buf })
+    vim.keymap.set("n", "<C-]>", vim.lsp.buf.definition, { buffer = event.buf })
   end,
 })

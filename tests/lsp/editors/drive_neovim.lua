@@ -67,7 +67,7 @@ end
 
 function does.hover(task)
   go(task, task.column)
-  vim.lsp.buf.hover()
+  press("K")
   await(function()
     return vim.b.lsp_floating_preview ~= nil
   end, "the window that says it")
@@ -115,7 +115,6 @@ end
 
 local function try(task)
   vim.cmd("edit " .. task.file)
-  vim.bo.omnifunc = "v:lua.vim.lsp.omnifunc"
   -- What is saved is what the edits have made: no more ends of last lines than those.
   vim.bo.fixendofline = false
   vim.bo.endofline = vim.bo.endofline and vim.fn.getfsize(task.file) > 0

@@ -285,7 +285,21 @@ def test_vim_with_ale_does_all_in_each_text(folder: Path) -> None:
 
 
 @pytest.mark.parametrize("client", ["eglot", "lsp-mode"])
-def test_emacs_does_all_in_each_text(folder: Path, client: str) -> None:
+def test_emacs_takes_the_folder_of_mlmg_toml_for_the_project(folder: Path, client: str) -> None:
+    if shutil.which("emacs") is None or not Path(f"/usr/share/doc/elpa-{client}").exists():
+        pytest.skip(f"not installed: Emacs with {client}")
+    (folder / "sub").mkdir()
+    (folder / "sub" / "gestures.ms").write_text("let greet = TALK\n", "utf-8")
+    root = {"eglot": "(project-root (eglot--current-project))", "lsp-mode": "(lsp--suggest-project-root)"}[client]
+    configuration = str(EDITORS / "emacs" / f"motion-script-{client}.el")
+    told = f'(princ (format "root: %s;" (expand-file-name {root})))'
+    asked = f'(progn (setq motion-script-mode-hook nil) (find-file "sub/gestures.ms") {told})'
+    said = run(folder, "emacs", "--batch", "-l", client, "-l", configuration, "--eval", asked)
+    assert f"root: {folder}/;" in said, said
+
+
+@pytest.mark.parametrize("client", ["eglot", "lsp-mode"])
+def test_emacs_does_does_all_in_each_text(folder: Path, client: str) -> None:
     if shutil.which("emacs") is None or not Path(f"/usr/share/doc/elpa-{client}").exists():
         pytest.skip(f"not installed: Emacs with {client}")
     files = (EDITORS / "emacs" / f"motion-script-{client}.el", HERE / "drive_emacs.el", HERE / f"drive_{client}.el")
