@@ -38,6 +38,7 @@ def _table() -> dict[str, Rule]:
         "MS005": Rule(error, "nested too deeply"),
         "MS006": Rule(error, "too many mistakes"),
         "MS007": Rule(error, "more text than is read"),
+        "MS008": Rule(error, "a file that is no script"),
         # the syntax
         "MS010": Rule(error, "a word or sign that does not fit here"),
         "MS011": Rule(error, "a word of the language in the wrong case"),

@@ -13,9 +13,12 @@ from mlmg_lang.diagnostics import Diagnostic
 from mlmg_lang.libraries import SETTINGS
 from mlmg_lang.source import Source, Span
 
+_HEAD = 200
+"""So many bytes at the beginning of a file tell whether it is a clip."""
+
 
 def read_script(path: str | Path) -> tuple[Source, tuple[Diagnostic, ...]]:
-    """Return the text of a script, and a diagnostic if it is not UTF-8; then the text is not to be analysed.
+    """Return the text of a script, and a diagnostic if it is no UTF-8, or no script; then that is not to be analysed.
 
     Parameters
     ----------
@@ -32,8 +35,10 @@ def read_script(path: str | Path) -> tuple[Source, tuple[Diagnostic, ...]]:
 
 
 def source_from_bytes(data: bytes, name: str) -> tuple[Source, tuple[Diagnostic, ...]]:
-    """Return the text of some bytes, and a diagnostic if they are not UTF-8."""
+    """Return the text of some bytes, and a diagnostic if they are not UTF-8, or those of a clip."""
     body = data.removeprefix(BOM_UTF8)
+    if body[:_HEAD].split()[:2] == [b"HIERARCHY", b"ROOT"]:
+        return Source(body[:_HEAD].decode("ascii", errors="replace").lstrip().split("\n", 1)[0], name), (_clip(),)
     try:
         return Source(body.decode("utf-8"), name), ()
     except UnicodeDecodeError as error:
@@ -99,6 +104,12 @@ def _alike(missing: Path) -> str:
     except OSError:
         near = ()
     return f"; there is `{near[0]}`" if near else ""
+
+
+def _clip() -> Diagnostic:
+    message = "this is a clip (BVH), not a script: it begins with `HIERARCHY`"
+    advice = "a script says what is to be seen, as in `WALK for 10 sec`; `mlmg build` makes a library of clips"
+    return Diagnostic("MS008", message, Span(0, len("HIERARCHY")), advice)
 
 
 def _not_utf8(data: bytes, first: int, at: int) -> Diagnostic:

@@ -18,6 +18,8 @@ from mlmg_runtime.errors import LibraryError
 # "mlmg" in ASCII: says whose SQLite file this is.
 APPLICATION_ID = 0x6D6C6D67
 FORMAT_VERSION = 4
+SQLITE = b"SQLite format 3\0"
+"""What every SQLite file begins with."""
 
 # SQLite puts a whole damaged column into its message.
 _LONGEST_REASON = 60
@@ -55,8 +57,12 @@ def open_database(path: Path) -> Iterator[sqlite3.Connection]:
     OSError
         If it cannot be opened.
     """
-    with path.open("rb"):
-        pass  # a missing or unreadable file is the operating system's to tell
+    with path.open("rb") as file:  # a missing or unreadable file is the operating system's to tell
+        is_sqlite = file.read(len(SQLITE)) == SQLITE
+    if path.suffix.lower() == ".toml" and not is_sqlite:
+        built = path.with_suffix(".mlmg").name
+        message = f"a configuration, not a library: build it first, by `mlmg build {path.name} -o {built}`"
+        raise LibraryError(path, None, f"{message}, and name {built} here")
     try:
         with closing(sqlite3.connect(f"{path.absolute().as_uri()}?mode=ro", uri=True)) as connection:
             _check_file(connection, path)

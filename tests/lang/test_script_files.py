@@ -33,6 +33,16 @@ def test_a_place_is_right_after_a_byte_order_mark_and_a_character_that_stands_fo
     assert source.location(one.span) == (1, 3, 1, 4)
 
 
+@pytest.mark.parametrize("data", [b"HIERARCHY\r\nROOT Hips\r\n{\r\n", b"\n HIERARCHY ROOT x\n\xff"])
+def test_a_clip_is_said_to_be_one(data: bytes) -> None:
+    _, (one,) = source_from_bytes(data, "Walk_01.bvh")
+    assert (one.code, one.message.split(",")[0]) == ("MS008", "this is a clip (BVH)")
+
+
+def test_a_script_that_begins_like_a_clip_is_a_script() -> None:
+    assert source_from_bytes(b"HIERARCHY with ROOT", "a.ms")[1] == ()
+
+
 def test_utf_16_is_recognised() -> None:
     _, (one,) = source_from_bytes("WALK".encode("utf-16"), "a.ms")
     assert one.help is not None

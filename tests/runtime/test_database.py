@@ -111,9 +111,23 @@ NO_LIBRARY = "not a readable library ({}); expected a file that `mlmg build` wro
 
 @pytest.mark.parametrize("content", [b"[library]\nclips = []\n", bytes(range(256)) * 40])
 def test_a_file_of_another_kind_is_told_in_one_sentence(tmp_path: Path, content: bytes) -> None:
-    path = tmp_path / "library.toml"
+    path = tmp_path / "library.mlmg"
     path.write_bytes(content)
     assert refusal(path) == f"{path}: {NO_LIBRARY.format('file is not a database')}"
+
+
+@pytest.mark.parametrize("content", [b"[library]\nclips = []\n", b""])
+def test_a_configuration_is_said_to_be_one_that_is_to_be_built_first(tmp_path: Path, content: bytes) -> None:
+    path = tmp_path / "dance.toml"
+    path.write_bytes(content)
+    assert refusal(path) == (
+        f"{path}: a configuration, not a library: build it first, by `mlmg build dance.toml -o dance.mlmg`, "
+        "and name dance.mlmg here"
+    )
+
+
+def test_a_library_may_end_as_configurations_do(path: Path) -> None:
+    assert open_library(path.rename(path.with_suffix(".toml"))).graphs
 
 
 def test_another_programs_database_is_told_in_one_sentence(tmp_path: Path) -> None:

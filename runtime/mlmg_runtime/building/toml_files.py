@@ -12,6 +12,7 @@ from typing import Any, Final, NoReturn
 
 from mlmg_runtime.building.toml_lines import KeyPath, key_lines
 from mlmg_runtime.errors import ConfigurationError
+from mlmg_runtime.library_file import SQLITE
 
 _PLAINER: Final[Mapping[str, str]] = MappingProxyType(
     {
@@ -58,6 +59,9 @@ def read_toml(path: Path) -> TomlFile:
         If it cannot be opened.
     """
     data = path.read_bytes()
+    if data.startswith(SQLITE):
+        message = "a library that has been built already, not a configuration; a configuration is a TOML file"
+        raise ConfigurationError(path, None, message)
     try:
         text = data.decode("utf-8-sig")
         return TomlFile(path, tomllib.loads(text), key_lines(text))

@@ -69,6 +69,11 @@ MISTAKES = [
     ('[library]\nclips = ["empty/*.bvh"]', 2, "no clip matches empty/*.bvh; DIR/empty has no BVH file"),
     ('[library]\nclips = ["*/*/*.bvh"]', 2, "no clip matches */*/*.bvh; expected BVH files"),
     ('[tag.Full-Body]\nWalk_01 = ["WALK"]', 1, f"unknown key `tag`; expected one of {KEYS}; did you mean `tags`?"),
+    (
+        '[library]\nclips = ["sub"]',
+        2,
+        'DIR/sub is a folder, not a clip; for all BVH files in it write "sub/*.bvh"',
+    ),
     ('[library]\nclips = ["Walk_9.bvh"]', 2, "there is no clip DIR/Walk_9.bvh"),
     (
         '[library]\nclips = ["*.bvh", "sub/*.bvh"]',
@@ -159,6 +164,11 @@ MISTAKES = [
     ("\n[tags.Full-Body]", 2, "the graph `Full-Body` has no motion; give it clips under [tags.Full-Body]"),
     ("tags = 3", 1, "tags must be a table, found 3"),
     ("[tags]\nFull-Body = 3", 2, "[tags.Full-Body] must be a table of motion = [tags]"),
+    (
+        '[tags]\nWalk_01 = ["WALK"]',
+        2,
+        "`Walk_01` is a clip; tags stand under the graph that they are for, as in [tags.Full-Body]",
+    ),
     ('\n[tags.Full-Bdy]\nWalk_01 = ["WALK"]', 2, "[tags.Full-Bdy] names no graph; did you mean `Full-Body`?"),
     ('[tags.Full-Body]\nWalk_1 = ["WALK"]', 2, "there is no clip `Walk_1`; did you mean `Walk_01`?"),
     ('[tags.Full-Body]\nZzz = ["WALK"]', 2, "there is no clip `Zzz`"),
@@ -232,6 +242,12 @@ MISTAKES = [
         "the group `WALK` is spelt like a tag; a name can mean one thing only",
     ),
 ]
+
+
+def test_a_library_is_said_to_be_built_already(folder: Path) -> None:
+    with pytest.raises(ConfigurationError) as caught:
+        read(folder, b"SQLite format 3\0\xff\xfe")
+    assert str(caught.value).startswith(f"{folder}/library.toml: a library that has been built already")
 
 
 @pytest.mark.parametrize(("text", "line", "message"), MISTAKES)

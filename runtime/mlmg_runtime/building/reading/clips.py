@@ -34,6 +34,9 @@ def _matches(library: Table, pattern: str) -> list[Path]:
     folder = library.file.path.parent
     if not any(character in pattern for character in "*?["):
         path = folder / pattern
+        if path.is_dir():
+            inside = f"{pattern.rstrip('/')}/*.bvh"
+            library.fail(f'{path} is a folder, not a clip; for all BVH files in it write "{inside}"', "clips")
         if not path.is_file():
             library.fail(f"there is no clip {path}", "clips")
         return [path]

@@ -22,11 +22,11 @@ _Tags = Mapping[str, Mapping[str, tuple[str, ...]]]
 
 def read_graphs(document: Table, clips: Sequence[str]) -> tuple[GraphConfiguration, ...]:
     """Return the graphs of `[[graph]]` with the motions of `[tags.GRAPH]`; none forbids a transition yet."""
-    tags = _tags(document, clips)
     message = "graphs are written as [[graph]] tables, one a graph"
     tables = document.tables("graph", [{"name": "Full-Body"}], message)
     if not tables:
         document.fail(message, "graph")
+    tags = _tags(document, clips, [str(table.get("name", "Full-Body")) for table in tables])
     graphs = tuple(_graph(table, clips, tags) for table in tables)
     names = [graph.name for graph in graphs]
     for table, name, before in zip(tables, names, range(len(names)), strict=True):
@@ -40,13 +40,13 @@ def read_graphs(document: Table, clips: Sequence[str]) -> tuple[GraphConfigurati
     return graphs
 
 
-def _tags(document: Table, clips: Sequence[str]) -> _Tags:
-    """Return graph -> motion -> tags; motions keep the order of their entries."""
+def _tags(document: Table, clips: Sequence[str], names: Sequence[str]) -> _Tags:
+    """Return graph -> motion -> tags; motions keep the order of their entries. `names`: those of the graphs."""
     tables = document.table("tags")
     found: dict[str, dict[str, tuple[str, ...]]] = {}
     for graph in tables:
         if not isinstance(tables.get(graph, None), dict):
-            tables.fail(f"[tags.{graph}] must be a table of motion = [tags]", graph)
+            tables.fail(_no_table(graph, clips, names), graph)
         table = tables.table(graph)
         own = found[composed(graph)] = {}
         for motion in table:
@@ -54,6 +54,13 @@ def _tags(document: Table, clips: Sequence[str]) -> _Tags:
                 table.fail(f"there is no clip `{motion}`{did_you_mean(motion, clips)}", motion)
             own[composed(motion)] = tuple(map(composed, table.texts(motion)))
     return found
+
+
+def _no_table(key: str, clips: Sequence[str], graphs: Sequence[str]) -> str:
+    """Return what to say of a key of `[tags]` that is no table, which may be a clip's."""
+    if composed(key) in clips:
+        return f"`{key}` is a clip; tags stand under the graph that they are for, as in [tags.{graphs[0]}]"
+    return f"[tags.{key}] must be a table of motion = [tags]"
 
 
 def _graph(table: Table, clips: Sequence[str], tags: _Tags) -> GraphConfiguration:
