@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from mlmg_lang.commands.console import DONE, ProgressLine, UsageError, refuse_overwriting, refuse_unwritable, tell
+from mlmg_lang.parsing.lexical import script_name
 
 if TYPE_CHECKING:
     from mlmg_runtime.built_library import GraphReport
@@ -89,7 +90,9 @@ def _refuse_what_is_no_configuration(path: Path) -> None:
 
 
 def _told_of(graph: MotionGraph, report: GraphReport) -> Iterator[str]:
-    """Yield what a person should know of a graph: what cannot be reached, and what will not look smooth."""
+    """Yield what a person should know of a graph: what cannot be reached or held, and what will not look smooth."""
+    from mlmg_runtime.playing.holding import hardly_held
+
     if not report.n_transitions and len(graph.motions) > 1:
         yield (
             f"warning: {graph.name}: no motion can follow another, nor itself: there is no transition. "
@@ -99,6 +102,14 @@ def _told_of(graph: MotionGraph, report: GraphReport) -> Iterator[str]:
         yield (
             f"warning: {graph.name}: no transition leads to {_some(report.lost_motions)} and on from there: "
             "a script can start there, but never come there"
+        )
+    held = hardly_held(graph)
+    if held:
+        shares = [f"{script_name(motion)} ({share:.0%})" for motion, share in held.items()]
+        yield (
+            f"warning: {graph.name}: held for long, {_some(shares)} would be shown for less than half of the time: "
+            "nothing leads from late in them to early in them, and a way round over other motions takes longer. "
+            "Clips that end as they begin, a greater `threshold`, or clips that lie between would help"
         )
     if report.bridges:
         widest = max(distance for _, _, distance in report.bridges)

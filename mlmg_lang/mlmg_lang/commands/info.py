@@ -114,6 +114,8 @@ def _description(library: Library) -> dict[str, Any]:
 
 
 def _graph_description(library: Library, graph: str) -> dict[str, Any]:
+    from mlmg_runtime.playing.holding import hardly_held
+
     own = library.by_name[graph]
     return {
         "name": graph,
@@ -124,6 +126,7 @@ def _graph_description(library: Library, graph: str) -> dict[str, Any]:
         "blend": own.blend,
         "motions": {motion: list(own.tags[motion]) for motion in own.motions},
         "n_forbidden": int(own.forbidden.sum()),
+        "hardly_held": dict(hardly_held(own)),
         **library.reports[graph],
     }
 
@@ -149,11 +152,21 @@ def _graph_lines(graph: dict[str, Any], description: dict[str, Any]) -> Iterator
     width = max(map(len, graph["motions"]))
     for motion, tags in graph["motions"].items():
         n_frames = description["clips"][motion]
-        lost = graph["lost_frames"].get(motion)
-        note = "  cannot be led to" if motion in graph["lost_motions"] else f"  {lost} frames lost" if lost else ""
-        yield f"  {motion:<{width}}  {n_frames / description['frame_rate']:6.1f} s  {', '.join(tags) or '-'}{note}"
+        notes = "".join(f"  {note}" for note in _notes(graph, motion))
+        yield f"  {motion:<{width}}  {n_frames / description['frame_rate']:6.1f} s  {', '.join(tags) or '-'}{notes}"
     if graph["n_forbidden"]:
         yield f"  forbidden: {graph['n_forbidden']} of the pairs of motions, to follow each other directly"
     if graph["bridges"]:
         distances = [distance for _, _, distance in graph["bridges"]]
         yield f"  bridged: {len(distances)} transitions above that, {min(distances):.3g} to {max(distances):.3g}"
+
+
+def _notes(graph: dict[str, Any], motion: str) -> Iterator[str]:
+    """Yield what is wrong with a motion on a graph."""
+    lost, held = graph["lost_frames"].get(motion), graph["hardly_held"].get(motion)
+    if motion in graph["lost_motions"]:
+        yield "cannot be led to"
+    elif lost:
+        yield f"{lost} frames lost"
+    if held is not None:
+        yield f"hardly held: shown {held:.0%} of the time"

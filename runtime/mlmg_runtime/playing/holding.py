@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 
 from mlmg_runtime.errors import PlayError
 from mlmg_runtime.motion_graph import USUAL_BRIDGE, MotionGraph, Position, Transition
@@ -10,6 +10,9 @@ from mlmg_runtime.playing.likeness import Alike, Likeness
 from mlmg_runtime.playing.rounds import best_round, way_back
 from mlmg_runtime.playing.search import find_paths
 from mlmg_runtime.playing.timeline import Blend, Clip, Segment, play_along, play_clip
+
+# Who holds a motion expects to see it for more than this share of the time.
+MOSTLY = 0.5
 
 
 def stay(
@@ -52,6 +55,19 @@ def latest_loop(graph: MotionGraph, motion: int) -> Transition | None:
         edge for edge in graph.edges[first:end] if edge.dst_motion == motion and edge.dst_frame < edge.src_frame
     ]
     return max(backward, key=lambda edge: (edge.src_frame, -edge.cost), default=None)
+
+
+def hardly_held(graph: MotionGraph) -> Mapping[str, float]:
+    """Return the motions that are shown for less than half of a long time in which they are held, with that share.
+
+    They never lead into themselves, and every way round over others takes longer than they are shown between.
+    """
+    shares: dict[str, float] = {}
+    for motion, name in enumerate(graph.motions):
+        usual = None if latest_loop(graph, motion) else best_round(graph, motion, range(len(graph.motions)))
+        if usual is not None and usual.share < MOSTLY:
+            shares[name] = usual.share
+    return shares
 
 
 def _come_back(

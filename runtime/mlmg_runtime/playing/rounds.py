@@ -12,7 +12,7 @@ from mlmg_runtime.motion_graph import UNREACHABLE, MotionGraph, Position, Transi
 
 
 class Round(NamedTuple):
-    """Transitions that leave a motion and come back to an earlier frame of it, and frames of the two parts of that.
+    """Transitions that leave a motion and come back to no later frame of it, and frames of the two parts of that.
 
     Attributes
     ----------
@@ -23,6 +23,11 @@ class Round(NamedTuple):
     transitions: tuple[Transition, ...]
     inside: int
     outside: int
+
+    @property
+    def share(self) -> float:
+        """Return the share of the time that passes in the motion, from 0 to 1."""
+        return self.inside / (self.inside + self.outside)
 
     @property
     def leave(self) -> int:
@@ -56,7 +61,7 @@ def _find_round(graph: MotionGraph, home: int, allowed: Collection[int]) -> tupl
     inside, outside = 0, 1
     while True:
         way = _cheapest(graph, home, allowed, _exits(graph, home, 0, outside), inside, outside, None)
-        if way is None or not way[-1].arrival.frame < way[0].src_frame:
+        if way is None or way[-1].arrival.frame > way[0].src_frame:
             return None
         found = _measured(graph, way)
         if best is not None and found.inside * best.outside <= best.inside * found.outside:

@@ -76,13 +76,31 @@ def test_motions_that_nothing_leads_to_are_one_warning_a_graph(folder, capsys):
     text = (folder / "library.toml").read_text(encoding="utf-8")
     (folder / "library.toml").write_text(text + rules, encoding="utf-8")
     assert mlmg.main(["build", "library.toml"]) == 0
-    (warning,) = [line for line in capsys.readouterr().err.splitlines() if "warning" in line]
+    (warning,) = [line for line in capsys.readouterr().err.splitlines() if "no transition leads to" in line]
     assert warning in (
         "mlmg build: warning: Full-Body: no transition leads to Stand and on from there: "
         "a script can start there, but never come there",
         "mlmg build: warning: Full-Body: no transition leads to Step, Reach and on from there: "
         "a script can start there, but never come there",
     )
+
+
+def test_motions_that_are_hardly_shown_where_they_are_held_are_told_with_what_may_help(folder, capsys):
+    rules = '\n[[transitions]]\ngraph = "Full-Body"\nforbid = [["IDLE", "IDLE"]]\n'
+    text = (folder / "library.toml").read_text(encoding="utf-8")
+    (folder / "library.toml").write_text(text + rules, encoding="utf-8")
+    assert mlmg.main(["build", "library.toml", "-o", "my.mlmg"]) == 0
+    (warning,) = [line for line in capsys.readouterr().err.splitlines() if "warning" in line]
+    assert mlmg.main(["info", "my.mlmg", "--json"]) == 0
+    held = [graph["hardly_held"] for graph in json.loads(capsys.readouterr().out)["graphs"]]
+    assert [list(motions) for motions in held] == [["Stand"], []]
+    share = f"{held[0]['Stand']:.0%}"
+    assert warning.startswith(
+        f"mlmg build: warning: Full-Body: held for long, Stand ({share}) would be shown for less "
+    )
+    assert "`threshold`" in warning
+    assert mlmg.main(["info", "my.mlmg"]) == 0
+    assert f"  hardly held: shown {share} of the time\n" in capsys.readouterr().out
 
 
 @pytest.mark.parametrize(

@@ -8,7 +8,7 @@ import pytest
 from mlmg_runtime.errors import PlayError
 from mlmg_runtime.library import Library
 from mlmg_runtime.motion_graph import MotionGraph, Position, Transition
-from mlmg_runtime.playing.holding import latest_loop, stay
+from mlmg_runtime.playing.holding import hardly_held, latest_loop, stay
 from mlmg_runtime.playing.likeness import Alike, Likeness
 from mlmg_runtime.playing.rounds import best_round, way_back
 from mlmg_runtime.playing.timeline import Blend, Clip, Segment, appended
@@ -170,6 +170,17 @@ def test_a_motion_that_never_leads_into_itself_is_held_by_the_way_round_on_which
     graph = motion_graph([100, 20, 40], 3, marks)
     segments = played(stay(NOTHING_ALIKE, graph, 0, Position(0, 21), 0, {0, 1, 2}), 300)
     assert departures(segments)[:4] == [(90, 9), (30, 9), (90, 9), (30, 9)]
+
+
+@pytest.mark.parametrize(("leave", "hard"), [(24, True), (36, False)])
+def test_a_motion_is_hardly_held_if_its_best_way_round_takes_longer_than_it_is_shown(motion_graph, leave, hard) -> None:
+    graph = motion_graph([40, 40, 20], 3, [(0, leave, 1, 9), (1, 22, 0, 9), (1, 38, 1, 30), (2, 10, 2, 4)])
+    shown, until = 0, 30_000
+    for segment in played(stay(NOTHING_ALIKE, graph, 0, Position(0, 10), 0, {0, 1, 2}), until):
+        shown += segment.end - segment.begin if isinstance(segment, Clip) and segment.first.motion == 0 else 0
+    share = shown / until
+    assert hardly_held(graph) == ({"Motion_0": pytest.approx(share, abs=1e-3)} if hard else {})
+    assert (share < 0.5) == hard
 
 
 def test_a_motion_that_never_leads_into_itself_is_not_blended_on_the_spot_if_a_way_leads_round(

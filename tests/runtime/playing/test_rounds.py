@@ -39,7 +39,7 @@ def largest_share(graph: MotionGraph, home: int, allowed: set[int]) -> tuple[Fra
                 break
         for edge, (frames, cost) in begun.items():
             inside = out.src_frame - edge.arrival.frame
-            if edge.dst_motion == home and inside > 0:
+            if edge.dst_motion == home and inside >= 0:
                 found = (Fraction(inside, inside + frames + graph.window), -cost - edge.cost)
                 best = found if best is None else max(best, found)
     return best
@@ -72,6 +72,7 @@ def test_a_motion_is_left_late_and_entered_early_though_a_shorter_way_leads_roun
     assert found is not None
     assert [(edge.src_frame, edge.dst_frame) for edge in found.transitions] == [(90, 9), (30, 9)]
     assert (found.inside, found.outside, found.leave) == (80, 26, 90)
+    assert found.share == pytest.approx(80 / 106)
     limited = best_round(graph, 0, {0, 1})
     assert limited is not None
     assert limited.leave == 24
