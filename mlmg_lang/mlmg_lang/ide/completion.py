@@ -26,6 +26,8 @@ from mlmg_lang.source import Span
 
 _UNITS: Final = ("sec", "ms", "min", "frames", "cycles")
 _STATEMENT_WORDS: Final = frozenset({"WAIT", "END", "REPEAT", "CHOOSE", "LET", "USE"})
+_MOST_TRIED: Final = 50
+"""So many definitions are tried in a place, at up to a third of a millisecond each; others are offered untried."""
 _TOP_LEVEL: Final = frozenset({"LET", "USE"})
 
 
@@ -71,7 +73,7 @@ def complete(tokens: Sequence[Token], offset: int, around: Surroundings) -> Offe
     cursor = cursor_at(tokens, offset)
     if cursor is None:
         return Offered(Span(offset, offset), ())
-    completer = _Completer(around, cursor, Reach(around.names, around.state))
+    completer = _Completer(around, cursor, Reach(around.names, around.definitions, around.state))
     found = chain.from_iterable(completer.all())
     return Offered(cursor.span, tuple(_in_quotes(found) if cursor.quoted else found), completer.fits)
 
@@ -116,11 +118,18 @@ class _Completer:
             if terminal in types or (terminal in continuing and terminal not in _STATEMENT_WORDS):
                 if terminal == "WITH" and not self._leaves_room(self.cursor.before or self.cursor.last):
                     continue
+                if terminal == "NOT" and not self._has_room(expression(self.cursor.before)):
+                    continue
                 yield Completion(terminal.lower(), terminal.lower(), What.WORD, says=says)
 
     def _leaves_room(self, motion: Sequence[Token]) -> bool:
         """Return whether a `with` behind a motion would leave a graph to speak of."""
         return bool(self.reach.rooms_below(expression(motion)))
+
+    def _has_room(self, own: Sequence[Token]) -> bool:
+        """Return whether there is a graph to speak of: one that the `with` before has left, if there is one."""
+        left = left_of_with(own)
+        return left is None or bool(self.reach.rooms_below(left))
 
     # --- names ---
 
@@ -155,22 +164,23 @@ class _Completer:
             return  # A word comes next.
         left = left_of_with(own)
         if left is None:
-            yield from self._anywhere(before)
+            yield from self._anywhere(before, own)
             return
         rooms = self.reach.rooms_below(left)
+        if not rooms:
+            return
         yield from self._unqualified(rooms, set())
         yield self._parameters_of(before)
-        yield self._definitions()
+        yield self._definitions(own)
         yield (_graph(graph, _part_says(graph, self.around.names)) for graph, _ in rooms)
-        if rooms:
-            yield (_graph(SUB, f"the part below: {rooms[0][0]}"),)
+        yield (_graph(SUB, f"the part below: {rooms[0][0]}"),)
 
-    def _anywhere(self, before: Sequence[Token]) -> Iterator[Iterable[Completion]]:
+    def _anywhere(self, before: Sequence[Token], own: Sequence[Token]) -> Iterator[Iterable[Completion]]:
         """Yield what a command may begin with: what the whole body does first, then what parts may do as it is."""
         names = self.around.names
         yield self._on(names.root, self.reach.playing(names.root))
         yield self._parameters_of(before)
-        yield self._definitions()
+        yield self._definitions(own)
         allowed = [graph for graph in names.all_levels()[1:] if self.reach.playing(graph) & names.motion_set(graph)]
         yield (_graph(graph, _part_says(graph, names)) for graph in allowed)
         rooms = [(graph, self.reach.playing(graph)) for graph in allowed]
@@ -194,8 +204,10 @@ class _Completer:
     def _parameters_of(self, before: Sequence[Token]) -> Iterator[Completion]:
         return (Completion(script_name(name), name, What.PARAMETER) for name in _parameters(before))
 
-    def _definitions(self) -> Iterator[Completion]:
-        for name, let in self.around.definitions.lets.items():
+    def _definitions(self, own: Sequence[Token]) -> Iterator[Completion]:
+        for number, (name, let) in enumerate(self.around.definitions.lets.items()):
+            if number < _MOST_TRIED and not self.reach.takes(own, name):
+                continue
             says = "defined here" if let.parameters is None else f"takes {len(let.parameters)}"
             yield Completion(script_name(name), name, What.DEFINITION, says=says)
 

@@ -1,6 +1,7 @@
 """What stands of a motion expression, and what may be playing -> the graphs that can be named next.
 
-A `with` leaves those that the stages say which would read the finished statement, with what rule 1 lets them play.
+A `with` leaves those that the stages say which would read the finished statement, with what rule 1 lets them play;
+and a definition is in reach if they find a place for what it says.
 """
 
 from __future__ import annotations
@@ -9,17 +10,21 @@ from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
 from typing import TypeAlias
 
+from mlmg_lang.definitions.expand import Expander
+from mlmg_lang.definitions.gather import Definitions
 from mlmg_lang.diagnostics import Diagnostic
 from mlmg_lang.parsing import syntax
+from mlmg_lang.parsing.lexical import script_name
 from mlmg_lang.parsing.line_parser import read
-from mlmg_lang.parsing.structure import SUB
+from mlmg_lang.parsing.structure import SUB, is_sub
 from mlmg_lang.parsing.tokens import NAMES, Token
+from mlmg_lang.planning.finding.search import Ways
 from mlmg_lang.planning.flow import State
 from mlmg_lang.planning.names import Names
 from mlmg_lang.planning.nothing import Room
 from mlmg_lang.planning.select import select
 from mlmg_lang.planning.typed import Layering
-from mlmg_lang.source import Source
+from mlmg_lang.source import Source, Span
 
 Below: TypeAlias = tuple[str, Collection[str]]
 """A graph that could be named, and what may be played above it then."""
@@ -30,6 +35,7 @@ class Reach:
     """Tells which graphs an expression leaves; `state`: what may be playing before its statement."""
 
     names: Names
+    definitions: Definitions
     state: State
 
     def qualifier(self, own: Sequence[Token]) -> str | None:
@@ -73,6 +79,26 @@ class Reach:
             if (parent := names.parent(graph)) is not None
         ]
 
+    def takes(self, own: Sequence[Token], definition: str) -> bool:
+        """Return whether an expression could go on with a definition; what it gets for its parameters is not known."""
+        if self.definitions.lets[definition].parameters is not None:
+            return True
+        text = script_name(definition)
+        name = Token("STRING" if text.startswith('"') else "NAME", text, Span(0, 0))
+        n_open = sum((token.type == "LEFT") - (token.type == "RIGHT") for token in own)
+        ways = self._ways((*own, name, *[Token("RIGHT", ")", Span(0, 0))] * n_open))
+        return ways is None or any(self._may_be_driven(way) for way in ways)
+
+    def _may_be_driven(self, way: Layering) -> bool:
+        """Return whether rule 1 allows each layer below those above it, or below what may be playing."""
+        names, layers = self.names, {layer.graph: layer for layer in way.layers}
+        for graph in layers:
+            drivers = [layers[one].motions for one in names.ancestors(graph) if one in layers]
+            above = drivers[0] if drivers else self.playing(graph)
+            if graph != names.root and names.motion_set(graph).isdisjoint(above):
+                return False
+        return True
+
     def _graph_of(self, token: Token, before: Sequence[Token]) -> str | None:
         if token.type not in NAMES:
             return None
@@ -82,18 +108,28 @@ class Reach:
         return None if left is None else next((graph for graph, _ in self.rooms_below(left)), None)
 
     def _way(self, motion: Sequence[Token]) -> Layering | None:
-        """Return what finished part of a command does."""
+        """Return what a finished part of a command does; None if that is not known."""
+        ways = self._ways(motion)
+        return ways[0] if ways else None
+
+    def _ways(self, motion: Sequence[Token]) -> Ways | None:
+        """Return all that a finished part of a command can do; None if some of it means nothing yet."""
         node = read(Source(""), tuple(motion))
         if not isinstance(node, syntax.Command):
             return None
-        if any(isinstance(part, syntax.Call) for part in syntax.walk(node)):
+        (expanded,) = Expander(self.definitions).body((node,))
+        if not isinstance(expanded, syntax.Command):
+            return ()
+        if not all(map(self._is_known, syntax.walk(expanded))):
             return None
-        known = all(self._is_known(part.name) for part in syntax.walk(node) if isinstance(part, syntax.Reference))
-        ways = select(node.motion, self.names, Source("")) if known else ()
-        return None if isinstance(ways, Diagnostic) or not ways else ways[0]
+        ways = select(expanded.motion, self.names, Source(""), explains=False)
+        return () if isinstance(ways, Diagnostic) else ways
 
-    def _is_known(self, name: syntax.Name) -> bool:
-        return bool(self.names.places(name.text))
+    def _is_known(self, node: syntax.Node) -> bool:
+        """Return whether part of an expression in which definitions have been put in is no name without a meaning."""
+        if isinstance(node, syntax.Reference):
+            return bool(self.names.places(node.name.text))
+        return not isinstance(node, syntax.Call) or is_sub(node.name) or self.names.graph(node.name.text) is not None
 
     def _rooms(self, way: Layering) -> Iterator[Below]:
         """Yield the graphs that a `with` leaves, and what may be played above each: what rule 1 lets it leave."""
