@@ -55,18 +55,23 @@ def compile(
     return look_ahead(analysis.resolved, library, seed).plan, analysis.diagnostics
 
 
-def play(plan: ResolvedPlan, library: Library, seed: int = 0, feet: bool = True) -> Performance:
+def play(plan: ResolvedPlan | None, library: Library, seed: int = 0, feet: bool = True) -> Performance:
     """Play a plan on the library that it was compiled against; the same inputs always give the same frames.
 
     Parameters
     ----------
+    plan : what `compile` returned; None, which it returns of a script with errors, cannot be played.
     seed : of what is drawn by chance. feet : whether planted feet are kept from sliding in transitions.
 
     Raises
     ------
+    ValueError
+        If there is no plan.
     mlmg_lang.staging.ScriptError
         If the library does not allow it.
     """
+    if plan is None:
+        raise ValueError("there is no plan: the script has errors, which the diagnostics that `compile` returned tell")
     from mlmg_lang.perform import perform
 
     return perform(plan, library, seed, feet=feet)

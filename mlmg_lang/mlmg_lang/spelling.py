@@ -66,6 +66,11 @@ def is_slip_of(word: str, meant: str) -> bool:
     return sorted(word) == sorted(meant) or OSA.distance(word, meant, score_cutoff=1) <= 1
 
 
+def counted(number: int, what: str) -> str:
+    """Return how many there are of something, in words: 1 clip, 2 clips."""
+    return f"{number} {what}{'' if number == 1 else 's'}"
+
+
 def listed(names: Iterable[str], last: str = "and") -> str:
     """Return names in backquotes as a sentence has them: `A`, `B` and `C`."""
     return joined((f"`{name}`" for name in names), last)

@@ -28,6 +28,13 @@ def last_shown(report: dict[str, Any], graph: str = "Full-Body") -> tuple[str, i
     return entry["motion"], entry["clip_begin"] + entry["end"] - 1 - entry["begin"]
 
 
+def test_a_script_with_errors_has_no_plan_and_is_said_to_have_none(demo_library: Library) -> None:
+    plan, diagnostics = mlmg_lang.compile("WLAK", demo_library)
+    assert diagnostics
+    with pytest.raises(ValueError, match="the diagnostics that `compile` returned"):
+        mlmg_lang.play(plan, demo_library)
+
+
 @pytest.mark.parametrize(
     ("before", "motion"), [("", "Walk_01"), ("Idle_01 for 1 sec", "Walk_01"), ("wait 10 sec", "Music_01")]
 )

@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from rapidfuzz import fuzz
 
-from mlmg_lang.spelling import Vocabulary, folded, is_slip_of, joined, listed, nearest, some
+from mlmg_lang.spelling import Vocabulary, counted, folded, is_slip_of, joined, listed, nearest, some
 
 KNOWN = ("WALK", "TALK", "WAVE_HAND", "SWING_HAND", "Idle_01", "Music")
 
@@ -77,3 +77,8 @@ def test_names_are_listed_as_in_a_sentence() -> None:
     assert listed(["A", "B"], "or") == "`A` or `B`"
     assert joined(["A", "B", "C"]) == "A, B and C"
     assert some(["A", "B", "C"], limit=2) == "`A`, `B` and 1 more"
+
+
+@pytest.mark.parametrize(("number", "words"), [(0, "0 clips"), (1, "1 clip"), (2, "2 clips")])
+def test_of_one_thing_there_is_one(number: int, words: str) -> None:
+    assert counted(number, "clip") == words

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING
 
 from mlmg_lang.commands.console import DONE, ProgressLine, UsageError, refuse_overwriting, refuse_unwritable, tell
 from mlmg_lang.parsing.lexical import script_name
+from mlmg_lang.spelling import counted
 
 if TYPE_CHECKING:
     from mlmg_runtime.built_library import GraphReport
@@ -73,8 +74,9 @@ def run(arguments: argparse.Namespace) -> int:
     n_frames = sum(poses.n_frames for poses in built.poses.values())
     n_transitions = sum(report.n_transitions for report in built.reports)
     tell(
-        f"{output}: {len(built.poses)} clips, {n_frames} frames, {len(built.graphs)} graphs, "
-        f"{n_transitions} transitions; `mlmg info {output}` tells more"
+        f"{output}: {counted(len(built.poses), 'clip')}, {counted(n_frames, 'frame')}, "
+        f"{counted(len(built.graphs), 'graph')}, {counted(n_transitions, 'transition')}; "
+        f"`mlmg info {output}` tells more"
     )
     return DONE
 

@@ -292,10 +292,11 @@ def _where_fixed(done: Sequence[_Checked]) -> str:
 def _counted(found: Sequence[Diagnostic]) -> str:
     """Return how many diagnostics there are of each severity."""
     from mlmg_lang.diagnostics import Severity
+    from mlmg_lang.spelling import counted
 
     severities = [one.severity for one in found]
     counts = [(severities.count(severity), severity.value) for severity in Severity]
-    return ", ".join(f"{n} {word}{'' if n == 1 else 's'}" for n, word in counts if n)
+    return ", ".join(counted(n, word) for n, word in counts if n)
 
 
 def _fixable(done: Sequence[_Checked]) -> str:

@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any
 
 from mlmg_lang.commands.console import DONE
 from mlmg_lang.parsing.lexical import script_name
+from mlmg_lang.spelling import counted
 
 if TYPE_CHECKING:
     from mlmg_runtime.library import Library
@@ -56,11 +57,14 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _graph(library: Library, name: str) -> str:
+    """Return the graph that a name means, as in scripts."""
+    from mlmg_lang.planning.names import Names
     from mlmg_runtime.errors import LibraryError
 
-    if name not in library.graphs:
+    meant = Names(library).graph(name)
+    if meant is None:
         raise LibraryError(library.path, None, f"there is no graph `{name}`; there are {', '.join(library.graphs)}")
-    return name
+    return meant
 
 
 def _transitions(library: Library, graph: str) -> Iterator[Iterable[object]]:
@@ -133,9 +137,10 @@ def _graph_description(library: Library, graph: str) -> dict[str, Any]:
 
 def _lines(description: dict[str, Any]) -> Iterator[str]:
     seconds = description["n_frames"] / description["frame_rate"]
+    clips, joints = counted(len(description["clips"]), "clip"), counted(len(description["joints"]), "joint")
     yield (
-        f"{description['library']}: {len(description['clips'])} clips, {description['n_frames']} frames "
-        f"({seconds:.0f} s at {description['frame_rate']:g} fps), {len(description['joints'])} joints, "
+        f"{description['library']}: {clips}, {counted(description['n_frames'], 'frame')} "
+        f"({seconds:.0f} s at {description['frame_rate']:g} fps), {joints}, "
         f"{description['bytes'] / 1e6:.1f} MB; starts in {description['start']}"
     )
     for graph in description["graphs"]:
@@ -146,8 +151,9 @@ def _lines(description: dict[str, Any]) -> Iterator[str]:
 def _graph_lines(graph: dict[str, Any], description: dict[str, Any]) -> Iterator[str]:
     below = f", below {graph['parent']}" if graph["parent"] else ""
     yield (
-        f"{graph['name']}{below}: {len(graph['motions'])} motions, {graph['n_transitions']} transitions of "
-        f"{graph['n_candidates']} candidates; smooth up to {graph['threshold']:.3g} (RMS over joints)"
+        f"{graph['name']}{below}: {counted(len(graph['motions']), 'motion')}, "
+        f"{counted(graph['n_transitions'], 'transition')} of {counted(graph['n_candidates'], 'candidate')}; "
+        f"smooth up to {graph['threshold']:.3g} (RMS over joints)"
     )
     width = max(map(len, graph["motions"]))
     for motion, tags in graph["motions"].items():
@@ -158,7 +164,8 @@ def _graph_lines(graph: dict[str, Any], description: dict[str, Any]) -> Iterator
         yield f"  forbidden: {graph['n_forbidden']} of the pairs of motions, to follow each other directly"
     if graph["bridges"]:
         distances = [distance for _, _, distance in graph["bridges"]]
-        yield f"  bridged: {len(distances)} transitions above that, {min(distances):.3g} to {max(distances):.3g}"
+        above = counted(len(distances), "transition")
+        yield f"  bridged: {above} above that, {min(distances):.3g} to {max(distances):.3g}"
 
 
 def _notes(graph: dict[str, Any], motion: str) -> Iterator[str]:
@@ -167,6 +174,6 @@ def _notes(graph: dict[str, Any], motion: str) -> Iterator[str]:
     if motion in graph["lost_motions"]:
         yield "cannot be led to"
     elif lost:
-        yield f"{lost} frames lost"
+        yield f"{counted(lost, 'frame')} lost"
     if held is not None:
         yield f"hardly held: shown {held:.0%} of the time"

@@ -11,6 +11,7 @@ examples:
 from __future__ import annotations
 
 import argparse
+import re
 import sys
 from typing import TYPE_CHECKING, Any
 
@@ -55,7 +56,8 @@ def _known(code: str) -> str:
     from mlmg_lang.diagnostics import CODES
     from mlmg_lang.spelling import joined, nearest
 
-    meant = f"MS{int(code):03}" if code.isascii() and code.isdigit() else code.upper()
+    number = re.fullmatch(r"0*([0-9]{1,3})|MS([0-9]{1,3})", code.upper())
+    meant = f"MS{int(number[1] or number[2]):03}" if number else code.upper()
     if meant in CODES:
         return meant
     near = nearest(meant, CODES)

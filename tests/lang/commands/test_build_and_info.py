@@ -213,6 +213,12 @@ def test_words_of_the_language_are_names_in_quotes(reserved, capsys):
         assert mlmg.main(["info", "my.mlmg", option, "for"]) == 0
 
 
+@pytest.mark.parametrize("written", ["upper-body", "upper_body", "UpperBody"])
+def test_a_graph_may_be_written_as_in_scripts(built, capsys, written):
+    assert mlmg.main(["info", "my.mlmg", "--oms", written]) == 0
+    assert capsys.readouterr().out.startswith("a,b,oms\n")
+
+
 def test_a_graph_that_is_not_there_is_named_with_those_that_are(built, capsys):
     assert mlmg.main(["info", "my.mlmg", "--oms", "Legs"]) == 1
     assert capsys.readouterr().err == (

@@ -50,7 +50,7 @@ Right:
     )
 
 
-@pytest.mark.parametrize("written", ["MS021", "ms021", "Ms021", "21", "021"])
+@pytest.mark.parametrize("written", ["MS021", "ms021", "Ms021", "21", "021", "ms21", "MS21"])
 def test_a_code_may_be_written_in_any_case_or_as_its_number(written: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert mlmg.main(["rule", written]) == 0
     assert capsys.readouterr().out.startswith("error[MS021]: an unknown name\n")

@@ -33,7 +33,7 @@ def explanation(demo_library: Library) -> Explanation:
     analysis = analyse(Source(script, "stroll.ms"), demo_library)
     assert not analysis.diagnostics
     told = explanation_from_analysis(analysis, demo_library, seed=0)
-    return replace(told, library="demo.mlmg")
+    return replace(told, library="demo-….mlmg")
 
 
 @pytest.mark.parametrize(("info", "render"), [("explain", render_text), ("mermaid", render_mermaid)])

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 from mlmg_lang.explaining.tree import table
+from mlmg_lang.explaining.wording import fit_number
 from mlmg_lang.planning.names import Kind, Names
 from mlmg_lang.rendering.wording import harmless
 from mlmg_lang.repl.desk import Desk
@@ -73,7 +74,7 @@ def oms(desk: Desk, argument: str) -> Reply:
     for graph, own in library.by_name.items():
         if motion in own.index:
             data[graph] = _alike(library, graph, motion)
-            rows = [(r["motion"], f"{r['oms']:.6g}", f"{r['of_usual']:.2f} of usual") for r in data[graph]]
+            rows = [(r["motion"], fit_number(r["oms"]), f"{r['of_usual']:.2f} of usual") for r in data[graph]]
             told += [f"on {graph}, like {motion}:", *(f"  {line}" for line in table(rows))]
     return Reply(_lines(told), {"motion": motion, "oms": data})
 
