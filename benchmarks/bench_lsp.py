@@ -33,7 +33,7 @@ from mlmg_runtime.demo.library import demo_library
 from mlmg_runtime.library import open_library
 
 N_STARTS, N_EDITS, N_ASKED = 7, 60, 20
-URI = "untitled:bench.ms"
+URI, DIAGNOSTICS = "untitled:bench.ms", "textDocument/publishDiagnostics"
 TYPED = "TAG_17 with Upper-Body TAG_4021 for 10 sec"
 HEAD = "let stroll = TAG_1 with Upper-Body TAG_2 for 4 sec\nlet wave(part = TAG_3) = TAG_4 with Upper-Body part\n"
 CLIENT: Final[Mapping[str, Any]] = {
@@ -59,6 +59,7 @@ class Client:
         assert self.process.stdin is not None
         assert self.process.stdout is not None
         self.stdin, self.stdout = self.process.stdin, self.process.stdout
+        self.told: Mapping[str, Any] = {}
 
     def send(self, **message: Any) -> None:
         body = json.dumps({"jsonrpc": "2.0", **message}).encode("utf-8")
@@ -74,6 +75,8 @@ class Client:
             message = json.loads(body)
             if "method" in message and "id" in message:
                 self.send(id=message["id"], result=None)
+            if message.get("method") == DIAGNOSTICS and message["params"]["uri"] == URI:
+                self.told = message["params"]
             if wanted(message):
                 return message
 
@@ -103,12 +106,10 @@ class Client:
         return self.diagnostics()
 
     def diagnostics(self) -> list[Any]:
-        told = self.until(
-            lambda one: (
-                one.get("method") == "textDocument/publishDiagnostics" and one["params"].get("version") == self.version
-            )
-        )
-        return list(told["params"]["diagnostics"])
+        """Return what is said of the text as it is now, which may have come before the answer to something else."""
+        while self.told.get("version") != self.version:
+            self.until(lambda one: one.get("method") == DIAGNOSTICS)
+        return list(self.told["diagnostics"])
 
     def computed_s(self) -> float:
         """Return how long the process has computed, on all processors together."""
