@@ -7,7 +7,7 @@ from time import perf_counter
 
 from mlmg_lang.rendering.wording import safe
 from mlmg_lang.repl.desk import Desk
-from mlmg_lang.repl.dot_commands import find_dot_command
+from mlmg_lang.repl.dot_commands import dotted, find_dot_command
 from mlmg_lang.repl.reply import Refusal, Reply
 from mlmg_lang.repl.telling import telling_of
 from mlmg_runtime.errors import MlmgError
@@ -32,6 +32,9 @@ class Conversation:
         return self._timed(reply, perf_counter() - began)
 
     def _reply(self, line: str) -> Reply:
+        meant = dotted(line, self.desk.session)
+        if meant is not None:
+            raise Refusal(f"write `{meant}`: commands that play nothing begin with a dot")
         if not is_dotted(line):
             return telling_of(self.desk).reply(self.desk.session.enter(line))
         word, _, argument = line.strip()[1:].partition(" ")

@@ -151,6 +151,35 @@ def test_what_cannot_be_done_is_one_line_that_says_what_to_do(
     assert told in reply.text
 
 
+@pytest.mark.parametrize(
+    ("line", "meant"),
+    [
+        ("help", ".help"),
+        ("?", ".help"),
+        ("HELP save", ".help save"),
+        ("exit", ".quit"),
+        ("quit", ".quit"),
+        ("exit()", ".quit"),
+        ("quit;", ".quit"),
+        (":q", ".quit"),
+        ("undo", ".undo"),
+        ("undo 3", ".undo 3"),
+        ("save a.ms", ".save a.ms"),
+        ("explain WALK for 2 sec", ".explain WALK for 2 sec"),
+    ],
+)
+def test_words_of_other_programs_are_told_with_the_command_that_is_meant(line: str, meant: str, say: Say) -> None:
+    reply = say(line)
+    assert not reply.ok
+    assert reply.text == f"error: write `{meant}`: commands that play nothing begin with a dot\n"
+
+
+def test_a_word_that_means_something_is_no_command(say: Say) -> None:
+    assert say("let exit = WALK", "exit").ok
+    assert "MS021" in say("undo with Upper-Body TALK").text
+    assert "error[" in say("state of mind").text
+
+
 def test_graphs_motions_and_tags_tell_what_the_library_has(say: Say) -> None:
     assert [row["graph"] for row in say(".graphs").data["graphs"]] == ["Full-Body", "Upper-Body", "Left-Hand"]
     assert "Wave_01" in say(".motions left-hand").text
