@@ -20,6 +20,8 @@ _OF_DEFINITIONS: Final = frozenset({"MS021", "MS026", "MS028"})
 """What is said of names that may be those of definitions."""
 _OF_PARAMETERS: Final = frozenset({"MS021", "MS027", "MS055"})
 """What is said of names that may be those of parameters; of arguments too."""
+_OF_DURATIONS: Final = frozenset({"MS017", "MS027"})
+"""What is said of names in the place of a duration, or of its number."""
 _ENDS_LOOP: Final = frozenset({"while", "until", "times"})
 """What stands behind the braces of a loop in other languages."""
 _REACH: Final = 80
@@ -56,7 +58,7 @@ class _Declared:
 
 def told_once(told: Sequence[Diagnostic], naming: Naming) -> Sequence[Diagnostic]:
     """Return what is wrong with a script, of definitions whose own names are wrong each told once."""
-    if not any(one.code in _OF_DEFINITIONS | _OF_PARAMETERS for one in told):
+    if not any(one.code in _OF_DEFINITIONS | _OF_PARAMETERS | _OF_DURATIONS for one in told):
         return told
     told = _without_conditions(_without_unread(told, naming), naming)
     for let in naming.lets:
@@ -66,12 +68,14 @@ def told_once(told: Sequence[Diagnostic], naming: Naming) -> Sequence[Diagnostic
 
 
 def _without_unread(told: Sequence[Diagnostic], naming: Naming) -> Sequence[Diagnostic]:
-    """Leave out names that a definition probably has which could not be read: `let GREETx) = x`."""
+    """Leave out names that a definition probably has which could not be read: `let GREETx) = x`, `let t = 5 sec`."""
     unread = tuple(naming.unread)
     if not unread:
         return told
 
     def follows(one: Diagnostic) -> bool:
+        if one.code in _OF_DURATIONS:
+            return normal(_name(one, naming)) in unread
         name = _name(one, naming) if one.code in _OF_DEFINITIONS else ""
         return len(name) > 1 and any(word.startswith(name) or is_slip_of(word, name) for word in unread)
 

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from typing import Final
 
 from mlmg_lang.diagnostics import Diagnostic, Fix
 from mlmg_lang.parsing import syntax
@@ -18,6 +20,8 @@ LONGEST_S = 24 * 3600.0
 """The longest duration that anyone can mean."""
 MAX_EXECUTED = 100_000
 """The most statements that a `repeat` may come to."""
+
+_DURATION: Final = re.compile(r"([0-9]+(?:\.[0-9]+)?)\s*([a-z]+)")
 
 
 def misplaced(script: syntax.Script) -> Iterator[Diagnostic]:
@@ -246,6 +250,10 @@ def _no_number(amount: syntax.Name, parameters: Sequence[str]) -> Diagnostic:
         unit = UNITS[amount.text]
         advice = f"write how many, as in `10 {unit}`"
         return Diagnostic("MS017", f"how many {unit}? The number is missing", amount.span, help=advice)
+    if amount.quoted and (written := _DURATION.fullmatch(amount.text.strip())) and written[2] in UNITS:
+        right = f"{written[1]} {UNITS[written[2]]}"
+        fix = Fix(amount.span, right, safe=True)
+        return Diagnostic("MS027", "a duration stands without quotes", amount.span, f"write `{right}`", fixes=(fix,))
     near = nearest(amount.text, parameters, limit=1)
     if near:
         message = f"`{amount.text}` is not a parameter of this definition"

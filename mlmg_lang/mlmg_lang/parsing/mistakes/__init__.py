@@ -12,7 +12,7 @@ from typing import Final
 
 from mlmg_lang.diagnostics import Diagnostic
 from mlmg_lang.parsing.line_parser import Stuck, read
-from mlmg_lang.parsing.mistakes import durations, heads, motions, names, signs, words
+from mlmg_lang.parsing.mistakes import durations, heads, motions, names, sentences, signs, words
 from mlmg_lang.parsing.mistakes.mistake import Mistake, expected, found, mistake
 from mlmg_lang.parsing.mistakes.one_edit import one_edit
 from mlmg_lang.parsing.syntax import Line
@@ -70,11 +70,17 @@ def explain(stuck: Stuck) -> Mistake:
 
 _RULES: Final[tuple[Callable[[Stuck], Mistake | None], ...]] = (
     words.wrong_case,
+    sentences.list_item,
+    sentences.condition,
+    sentences.wait_for_motion,
     durations.time_of_beginning,
     words.comes_next,
     words.word_of_other_languages,
+    words.space_missing,
     names.clip_file,
     durations.how_often,
+    sentences.weight_without_colon,
+    sentences.number_first,
     durations.odd_number,
     durations.number_of_other_languages,
     durations.clock_time,
@@ -101,15 +107,18 @@ _RULES: Final[tuple[Callable[[Stuck], Mistake | None], ...]] = (
     heads.number_defined,
     heads.comma_missing,
     motions.parenthesis,
+    words.kept_for_later,
     words.reserved_as_name,
     heads.name_missing,
     durations.amount_missing,
     motions.no_motion_after,
+    motions.inside_parentheses,
     motions.nothing_before,
+    signs.single_quotes,
     signs.stray_character,
     words.misspelt_word,
-    words.space_missing,
     words.head_without_body,
+    signs.bar_for_or,
     signs.stray_sign,
     motions.three_names,
     motions.lone_number,

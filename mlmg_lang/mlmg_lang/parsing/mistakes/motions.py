@@ -40,8 +40,6 @@ def nothing_before(stuck: Stuck) -> Mistake | None:
     word = stuck.token(0)
     if word is None or word.type not in CONTINUES or "NAME" not in stuck.accepts:
         return None
-    if stuck.type(-1) in NAMES:
-        return _inside_parentheses(stuck, word)
     message = f"`{word.text}` needs a motion before it"
     if word.type == "FOR":
         advice = "how long comes after what is played; to do it several times, write `repeat 3 { ... }`"
@@ -50,11 +48,24 @@ def nothing_before(stuck: Stuck) -> Mistake | None:
     return mistake("MS014", message, word.span, "write a motion or tag before it", meant=meant)
 
 
-def _inside_parentheses(stuck: Stuck, word: Token) -> Mistake:
-    """Say what is wrong with `GREET(WALK for 2 sec)`."""
+def inside_parentheses(stuck: Stuck) -> Mistake | None:
+    """`GREET(WALK for 2 sec)`, `(WALK with TALK once)`."""
+    word = stuck.token(0)
+    if word is None or word.type not in ("FOR", "ONCE") or not _open(stuck.tokens[: stuck.at]):
+        return None
+    if stuck.type(-1) not in NAMES | {"RIGHT"}:
+        return None
     message = f"`{word.text}` stands at the end of a statement, not in parentheses"
-    meant = replaced(stuck, stuck.at, n=1 if word.type == "ONCE" else 3)
-    return mistake("MS010", message, word.span, "write it behind the `)`", meant=meant)
+    closing = next((at for at in range(stuck.at, len(stuck.tokens)) if stuck.tokens[at].type == "RIGHT"), None)
+    n = 1 if word.type == "ONCE" else 3
+    advice = "write it behind the `)`"
+    if closing is None or closing != len(stuck.tokens) - 1 or closing != stuck.at + n:
+        return mistake("MS010", message, word.span, advice, meant=replaced(stuck, stuck.at, n=n))
+    last, inside = stuck.tokens[closing], stuck.tokens[stuck.at : closing]
+    span = Span(stuck.tokens[stuck.at - 1].span.end, last.span.end)
+    fix = Fix(span, f") {stuck.source.slice(across(inside[0], inside[-1]))}", safe=False)
+    meant = replaced(stuck, stuck.at, last, *inside, n=n + 1)
+    return mistake("MS010", message, word.span, advice, fix, meant=meant)
 
 
 def not_after_graph(stuck: Stuck) -> Mistake | None:
@@ -162,6 +173,8 @@ def lone_number(stuck: Stuck) -> Mistake | None:
         return None
     if "FOR" not in stuck.accepts:
         return None
+    if stuck.type(1) in NUMBERS:
+        return _numbers(stuck, number)
     if number.type == "INTEGER" and number.text.startswith("0") and before.type == "NAME":
         right = f"{before.text}_{number.text}"
         span = across(before, number)
@@ -172,3 +185,12 @@ def lone_number(stuck: Stuck) -> Mistake | None:
     fix = Fix(number.span, right, safe=False)
     return mistake("MS010", f"`{number.text}` cannot follow a name", number.span,
                    f"for how long it is played, write `{right}`", fix, meant=stuck.tokens[: stuck.at])  # fmt: skip
+
+
+def _numbers(stuck: Stuck, first: Token) -> Mistake:
+    """`OFFSET 0 0 0`."""
+    end = next((at for at in range(stuck.at, len(stuck.tokens)) if stuck.tokens[at].type not in NUMBERS), None)
+    span = across(first, stuck.tokens[-1 if end is None else end - 1])
+    message = f"`{stuck.source.slice(span)}` cannot follow a name"
+    advice = "a command is what is played, and how long: `WALK for 10 sec`"
+    return mistake("MS010", message, span, advice, meant=stuck.tokens[: stuck.at])

@@ -8,6 +8,7 @@ from types import MappingProxyType
 from typing import Final
 
 from mlmg_lang.diagnostics import Brace, Fix
+from mlmg_lang.parsing.lexical import script_name
 from mlmg_lang.parsing.line_parser import Stuck
 from mlmg_lang.parsing.mistakes.mistake import Mistake, across, mistake, replaced
 from mlmg_lang.parsing.tokens import NAMES, NUMBERS, Token
@@ -30,7 +31,6 @@ _LATER: Final = ("->", "=>", ">", ">>", "-->", "\u2192", "\u21d2", "\u27f6")
 
 _ELSEWHERE: Final[Mapping[str, tuple[str, str]]] = MappingProxyType(
     {
-        "BAR": ("`|` stands between the branches of `choose { }` alone", "for one or the other, write `or`"),
         "EQUALS": ("`=` stands in a definition alone", "write `let NAME = ...`"),
         "COLON": (
             "`:` stands after the weight of a branch alone",
@@ -39,6 +39,23 @@ _ELSEWHERE: Final[Mapping[str, tuple[str, str]]] = MappingProxyType(
     }
 )
 """Signs of the language: where they belong, and what to write instead."""
+
+
+def single_quotes(stuck: Stuck) -> Mistake | None:
+    """`'WALK'`, `'hand on hip'`."""
+    opening = stuck.token(0)
+    if opening is None or opening.text not in ("'", "`"):
+        return None
+    behind = range(stuck.at + 1, len(stuck.tokens))
+    at = next((at for at in behind if stuck.tokens[at].text == opening.text), None)
+    inside = "" if at is None else stuck.source.slice(Span(opening.span.end, stuck.tokens[at].span.start))
+    if at is None or not inside.strip() or '"' in inside or "\\" in inside:
+        return None
+    span, right = across(opening, stuck.tokens[at]), script_name(inside)
+    name = Token("STRING" if right.startswith('"') else "NAME", right, span)
+    message, fix = f"`{opening.text}` means nothing in Motion Script", Fix(span, right, safe=True)
+    meant = replaced(stuck, stuck.at, name, n=at - stuck.at + 1)
+    return mistake("MS003", message, span, f"write `{right}`", fix, meant=meant)
 
 
 def stray_character(stuck: Stuck) -> Mistake | None:
@@ -76,6 +93,8 @@ def _square(stuck: Stuck) -> int | None:
 def _in_square(stuck: Stuck, closing: int) -> Mistake:
     """`EXPLAIN[WALK]`."""
     first, last = stuck.tokens[stuck.at], stuck.tokens[closing]
+    if [token.type for token in stuck.tokens[stuck.at + 1 : closing]] == ["INTEGER"]:
+        return _index(stuck, first, last)
     right = f"({stuck.source.slice(Span(first.span.end, last.span.start))})"
     left = replace(first, type="LEFT", text="(")
     inside = stuck.tokens[stuck.at + 1 : closing]
@@ -83,6 +102,14 @@ def _in_square(stuck: Stuck, closing: int) -> Mistake:
     span = across(first, last)
     message = "`[ ]` mean nothing in Motion Script"
     return mistake("MS003", message, span, f"did you mean `{right}`?", Fix(span, right, safe=False), meant=meant)
+
+
+def _index(stuck: Stuck, first: Token, last: Token) -> Mistake:
+    """`WALK[0]`."""
+    span = across(first, last)
+    message = "`[ ]` mean nothing in Motion Script: which motion of a tag is played is found out"
+    advice = "take it out, or write the name of one motion"
+    return mistake("MS003", message, span, advice, Fix(span, "", safe=False), meant=replaced(stuck, stuck.at, n=3))
 
 
 def _other_language(stuck: Stuck, message: str, token: Token) -> Mistake | None:
@@ -133,8 +160,23 @@ def _part_of_name(stuck: Stuck, message: str, token: Token) -> Mistake | None:
     return mistake("MS003", message, token.span, advice, Fix(span, quoted, safe=False), meant=meant)
 
 
+def bar_for_or(stuck: Stuck) -> Mistake | None:
+    """`WALK | TALK`, `WALK || TALK`."""
+    bar = stuck.token(0)
+    if bar is None or bar.type != "BAR":
+        return None
+    n = 2 if stuck.type(1) == "BAR" else 1
+    span = across(bar, stuck.tokens[stuck.at + n - 1])
+    message, advice = "`|` stands between the branches of `choose { }` alone", "for one or the other, write `or`"
+    if "OR" not in stuck.accepts or stuck.type(n) not in NAMES | {"LEFT", "NOT"}:
+        return mistake("MS010", message, span, advice, brace=Brace.OUTSIDE)
+    meant = replaced(stuck, stuck.at, Token("OR", "or", span), n=n)
+    fix = Fix(span, "or", safe=False)
+    return mistake("MS010", message, span, advice, fix, meant=meant, brace=Brace.OUTSIDE)
+
+
 def stray_sign(stuck: Stuck) -> Mistake | None:
-    """`|`, `=`, `:` and `,` where they have no business."""
+    """`=`, `:` and `,` where they have no business."""
     token = stuck.token(0)
     if token is not None and token.type == "COMMA":
         return _comma(stuck, token)
@@ -144,15 +186,15 @@ def stray_sign(stuck: Stuck) -> Mistake | None:
         return None
     message, advice = _ELSEWHERE[token.type]
     before, after = stuck.token(-1), stuck.token(1)
-    if token.type == "COLON" and before and after and before.type in NAMES and after.type in NAMES:
+    is_between = before is not None and after is not None and before.type in NAMES and after.type in NAMES
+    if is_between and before and after and (token.type == "COLON" or stuck.at > 1):
         fix = Fix(token.span, "", safe=False)
         right = f"{before.text} {after.text}"
         return mistake("MS010", message, token.span, f"write `{right}`", fix, meant=replaced(stuck, stuck.at))
     if token.type == "COLON" and stuck.left == 1 and stuck.at:
         fix = Fix(token.span, "", safe=False)
         return mistake("MS010", message, token.span, "take it out", fix, meant=replaced(stuck, stuck.at))
-    brace = Brace.OUTSIDE if token.type == "BAR" else None
-    return mistake("MS010", message, token.span, advice, brace=brace)
+    return mistake("MS010", message, token.span, advice)
 
 
 def or_for_bar(stuck: Stuck) -> Mistake | None:

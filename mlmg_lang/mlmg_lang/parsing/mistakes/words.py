@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import replace
 from typing import Final
@@ -14,12 +15,14 @@ from mlmg_lang.parsing.foreign import MEANT, NEXT
 from mlmg_lang.parsing.foreign import NUMBERS as IN_WORDS
 from mlmg_lang.parsing.line_parser import Stuck
 from mlmg_lang.parsing.mistakes.mistake import Mistake, across, found, gets_further, mistake, n_unread, replaced
-from mlmg_lang.parsing.tokens import JOINERS, NUMBERS, Token
+from mlmg_lang.parsing.tokens import CONTINUES, JOINERS, NUMBERS, Token
 from mlmg_lang.source import Span
 from mlmg_lang.spelling import is_slip_of, listed
 
 _BEGIN: Final = frozenset({"let", "use", "repeat", "choose", "wait", "end"})
 """Words that begin a statement."""
+_LATER: Final = frozenset({"KEEPING", "TO", "ALONG", "FACING"})
+_JOINED: Final = re.compile(r"(for|wait)([0-9]+)([a-z]*)")
 _BEHIND_COUNT: Final = frozenset({"times", "time", "x", ":"})
 """What people write behind how often."""
 
@@ -124,28 +127,42 @@ def word_of_other_languages(stuck: Stuck) -> Mistake | None:
         for word in MEANT.get(token.text, ()) if token.type == "NAME" else ():
             meant = replaced(stuck, at, replace(token, type=words[word], text=word))
             if (at == 0) == (word in _BEGIN) and gets_further(stuck, meant):
-                fix = Fix(token.span, word, safe=False)
-                message = f"`{token.text}` is not a word of the language"
-                return mistake("MS019", message, token.span, f"write `{word}`", fix, meant=meant)
+                return _instead(stuck, at, word, meant)
     return None
 
 
+def _instead(stuck: Stuck, at: int, word: str, meant: tuple[Token, ...]) -> Mistake:
+    """Say what is written here for a word of other languages; with the unit, which others leave out: `sleep 2`."""
+    token, rest = stuck.tokens[at], stuck.tokens[at + 1 :]
+    message = f"`{token.text}` is not a word of the language"
+    if word not in ("wait", "for") or len(rest) != 1 or rest[0].type not in NUMBERS:
+        return mistake("MS019", message, token.span, f"write `{word}`", Fix(token.span, word, safe=False), meant=meant)
+    end = Span(rest[0].span.end, rest[0].span.end)
+    right = f"{word} {rest[0].text} sec"
+    fix = Fix(across(token, rest[0]), right, safe=False)
+    meant = (*meant, Token("UNIT", "sec", end))
+    return mistake("MS019", message, token.span, f"for seconds, write `{right}`", fix, meant=meant)
+
+
 def space_missing(stuck: Stuck) -> Mistake | None:
-    """`WALK for10 sec`."""
+    """`WALK for10 sec`, `wait2sec`."""
     for at in range(min(stuck.at, len(stuck.tokens) - 1), max(stuck.at - 2, -1), -1):
         token = stuck.tokens[at]
-        digits = token.text.removeprefix("for") if token.text.startswith("for") else token.text.removeprefix("wait")
-        word = token.text.removesuffix(digits)
-        if token.type != "NAME" or not word or not (digits.isascii() and digits.isdigit()):
+        found = _JOINED.fullmatch(token.text) if token.type == "NAME" else None
+        if found is None or not (found[3] == "" or found[3] in UNITS):
             continue
-        middle = token.span.start + len(word)
-        parts = (replace(token, type=word.upper(), text=word, span=Span(token.span.start, middle)),
-                 Token("INTEGER", digits, Span(middle, token.span.end)))  # fmt: skip
-        meant = replaced(stuck, at, *parts)
+        places = [Span(token.span.start + first, token.span.start + end) for first, end in found.regs[1:]]
+        kinds = (found[1].upper(), "INTEGER", "UNIT")
+        parts = map(Token, kinds, found.groups(), places)
+        meant = replaced(stuck, at, *(part for part in parts if part.text))
         if gets_further(stuck, meant):
-            fix = Fix(Span(middle, middle), " ", safe=False, name="add a space")
-            message = f"a space is missing behind `{word}`"
-            return mistake("MS019", message, token.span, f"write `{word} {digits}`", fix, meant=meant)
+            behind = stuck.tokens[at + 1 : at + 2]
+            unit = found[3] or (behind[0].text if behind and behind[0].type == "UNIT" else "")
+            place = Span(places[1].start, places[1].start)
+            fix = Fix(place, " ", safe=bool(unit), name="add a space")
+            message = f"a space is missing behind `{found[1]}`"
+            advice = f"write `{f'{found[1]} {found[2]} {unit}'.strip()}`"
+            return mistake("MS019", message, token.span, advice, fix, meant=meant)
     return None
 
 
@@ -162,6 +179,24 @@ def reserved_as_name(stuck: Stuck) -> Mistake | None:
     fix = Fix(token.span, f'"{token.text}"', safe=False)
     message = f"`{token.text}` is a word of the language, not a name"
     return mistake("MS018", message, token.span, "in quotes it is a name", fix)
+
+
+def kept_for_later(stuck: Stuck) -> Mistake | None:
+    """`Idle_01 to Walk_01`, `WALK facing north`."""
+    word = stuck.token(0)
+    if word is None or word.type not in _LATER or stuck.left < 2 or "$END" not in stuck.accepts:
+        return None
+    message = f"`{word.text}` is kept for a later version of the language; it says nothing in this one"
+    before, start = stuck.tokens[: stuck.at], stuck.tokens[stuck.at - 1].span.end
+    if word.type == "TO":
+        advice = "what is played later stands on a line of its own, or after `;`"
+        fix = Fix(Span(start, word.span.end), ";", safe=False)
+        return mistake("MS018", message, word.span, advice, fix, meant=before)
+    rest = range(stuck.at + 1, len(stuck.tokens))
+    end = next((at for at in rest if stuck.tokens[at].type in CONTINUES), len(stuck.tokens))
+    fix = Fix(Span(start, stuck.tokens[end - 1].span.end), "", safe=False)
+    meant = (*before, *stuck.tokens[end:])
+    return mistake("MS018", message, word.span, "leave it out, with what stands behind it", fix, meant=meant)
 
 
 def head_without_body(stuck: Stuck) -> Mistake | None:
