@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from prompt_toolkit import PromptSession
+from prompt_toolkit.application import get_app_session
 from prompt_toolkit.auto_suggest import AutoSuggestFromHistory
 from prompt_toolkit.completion import ThreadedCompleter
 from prompt_toolkit.enums import EditingMode
@@ -29,6 +30,7 @@ from mlmg_lang.repl.terminal.completing import ScriptCompleter
 from mlmg_lang.repl.terminal.history import history_path, library_name, uses_of
 from mlmg_lang.repl.terminal.marking import ScriptLexer
 from mlmg_lang.repl.terminal.toolbar import toolbar
+from mlmg_lang.repl.terminal.wrapping import wrapped
 from mlmg_lang.source import Source
 
 if TYPE_CHECKING:
@@ -160,11 +162,11 @@ class TerminalFace:
         )
 
     def _n_columns(self) -> int:
-        return 80 if self._prompt is None else self._prompt.output.get_size().columns
+        return (self.output or get_app_session().output).get_size().columns
 
     def _print(self, text: str) -> None:
         if text:
-            print_formatted_text(ANSI(text), end="", output=self.output)
+            print_formatted_text(ANSI(wrapped(text, self._n_columns())), end="", output=self.output)
 
 
 def _greeting(desk: Desk) -> str:

@@ -113,6 +113,19 @@ def test_a_terminal_of_30_columns_is_wide_enough(terminal: Callable[..., Termina
     assert max(map(len, screen.splitlines())) <= 30
 
 
+@pytest.mark.parametrize("columns", [80, 40])
+def test_replies_are_broken_at_words(columns: int, terminal: Callable[..., Terminal]) -> None:
+    at = terminal(columns, 90)
+    at.type(".help")
+    at.press("Enter")
+    screen = at.waits_for("leave\n", ".quit")
+    assert max(map(len, screen.splitlines())) <= columns
+    said = " ".join(screen.split())
+    assert "write the motion, or the script that plays it again" in said
+    assert "take the last entry back, or the last N" in said
+    assert "`.help` tells what there is, Ctrl-D leaves." in said
+
+
 def test_the_terminal_may_be_resized_while_typing(terminal: Callable[..., Terminal]) -> None:
     at = terminal(80, 24)
     at.type("WALK with Upper-Body TALK for 2 sec")
