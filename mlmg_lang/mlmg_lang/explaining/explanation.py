@@ -298,10 +298,17 @@ class Event:
 
 @dataclass(frozen=True, slots=True)
 class Taken:
-    """What drives a graph when a command has arrived."""
+    """What drives a graph when a command has arrived.
+
+    Attributes
+    ----------
+    shown : the share of the time from then to the next statement in which it is shown, from 0 to 1; the rest is a way
+        round over other motions by which it is held. None if that time is none.
+    """
 
     graph: str
     motion: str
+    shown: float | None
 
 
 @dataclass(frozen=True, slots=True)

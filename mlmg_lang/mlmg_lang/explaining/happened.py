@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping
+from bisect import bisect_left, bisect_right
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
@@ -46,7 +47,7 @@ class Teller:
     library: Library
     tracks: Mapping[str, tuple[Segment, ...]]
     homes: dict[str, str]
-    _shown: dict[str, int] = field(default_factory=dict)
+    _told: dict[str, int] = field(default_factory=dict)
 
     def execution(self, step: Executed) -> Execution:
         """Return how a statement went."""
@@ -61,7 +62,7 @@ class Teller:
             self._seconds(step.arrive - step.begin),
             self._seconds(step.end - step.arrive),
             round(sum(event.cost or 0.0 for event in events), 3),
-            tuple(Taken(graph, motion) for graph, motion in step.motions.items()),
+            tuple(Taken(graph, motion, self._shown(graph, motion, step)) for graph, motion in step.motions.items()),
             tuple(events),
         )
 
@@ -91,13 +92,35 @@ class Teller:
         """Yield the blends of a graph that began while a statement was under way."""
         segments = self.tracks.get(graph, ())
         # Statements come in the order of time, so that what has been told need not be looked at again.
-        at = self._shown.get(graph, 0)
+        at = self._told.get(graph, 0)
         while at < len(segments) and segments[at].begin < step.arrive:
             segment = segments[at]
             at += 1
             if isinstance(segment, Blend) and segment.begin >= step.begin:
                 yield self._event(graph, segment)
-        self._shown[graph] = at
+        self._told[graph] = at
+
+    def _shown(self, graph: str, motion: str, step: Executed) -> float | None:
+        """Return the share of the time after a statement's arrival in which a motion is shown on a graph."""
+        if step.end == step.arrive:
+            return None
+        for driver in (graph, *self.library.ancestors(graph)):
+            during = self._during(driver, step.arrive, step.end)
+            if during:
+                home = self.library.by_name[driver].index[motion]
+                frames = sum(
+                    min(segment.end, step.end) - max(segment.begin, step.arrive)
+                    for segment in during
+                    if _shows(segment, home)
+                )
+                return round(frames / (step.end - step.arrive), 3)
+        return None
+
+    def _during(self, graph: str, begin: int, end: int) -> Sequence[Segment]:
+        """Return what a graph plays by itself in a time; nothing, if it does what the graph above does."""
+        segments = self.tracks.get(graph, ())
+        first = bisect_right(segments, begin, key=lambda segment: segment.end)
+        return segments[first : max(first, bisect_left(segments, end, key=lambda segment: segment.begin))]
 
     def _event(self, graph: str, blend: Blend) -> Event:
         motions = self.library.by_name[graph].motions
@@ -109,3 +132,10 @@ class Teller:
 
     def _seconds(self, n_frames: int) -> float:
         return round(n_frames / self.library.frame_rate, 3)
+
+
+def _shows(segment: Segment, motion: int) -> bool:
+    """Return whether nothing but one motion is shown in a segment."""
+    if isinstance(segment, Blend):
+        return segment.source.motion == motion and segment.target is not None and segment.target.motion == motion
+    return segment.first.motion == motion

@@ -19,6 +19,7 @@ from mlmg_lang.explaining.explanation import (
     Played,
     Repeat,
     Statement,
+    Taken,
     Totals,
     Use,
     Wait,
@@ -32,6 +33,7 @@ from mlmg_lang.rendering.colour import BLUE, BOLD, GREEN, Painter
 
 WIDTH: Final = 100
 _MOST_EXECUTIONS: Final = 3
+_AS_GOOD_AS_ALWAYS: Final = 0.995
 
 
 def render_text(explanation: Explanation, width: int = WIDTH, colour: bool = False) -> str:
@@ -198,7 +200,7 @@ def _then(duration: Duration, lasts: Estimate) -> str:
 
 def _executions(executions: Sequence[Execution], expected: Estimate | None = None) -> Iterator[Tree]:
     for one in executions[:_MOST_EXECUTIONS]:
-        taken = ", ".join(f"{drives.graph} {drives.motion}" for drives in one.taken)
+        taken = ", ".join(map(_taken, one.taken))
         text = f"lasted {one.lasted_s:.1f} s"
         if expected is not None:
             text = f"arrived after {one.arrived_s:.1f} s (expected {expected.mean:.1f})"
@@ -208,6 +210,12 @@ def _executions(executions: Sequence[Execution], expected: Estimate | None = Non
     if more:
         mean = sum(one.arrived_s for one in more) / len(more)
         yield Tree("", f"played {len(more)} times more, arrived after {mean:.1f} s on average", style=(GREEN,))
+
+
+def _taken(taken: Taken) -> str:
+    """Return what drives a graph, and how much of the time it is shown where that is not all the time."""
+    all_the_time = taken.shown is None or taken.shown > _AS_GOOD_AS_ALWAYS
+    return f"{taken.graph} {taken.motion}" + ("" if all_the_time else f" (shown {taken.shown:.0%} of the time)")
 
 
 def _events(execution: Execution) -> tuple[Tree, ...]:
