@@ -3,7 +3,7 @@
 examples:
   mlmg repl my.mlmg
   mlmg repl                                             with the library of mlmg.toml, else the demo library
-  mlmg repl -c "WALK for 3 sec" -c ".save a.bvh"        these lines, then leave
+  mlmg repl -c "WALK for 3 sec" -c ".save! a.bvh"       these lines, then leave
   mlmg repl --json < lines.txt                          for programs: a line of JSON for each reply
 
 `.help` in it tells of all commands with a dot. Without a terminal, plain lines are read and written.
