@@ -124,6 +124,10 @@ BITS = (
         "Upper Body x\n",
         "let x = WALK with upper body wave hand\n",
         "let x = Upper body\n",
+        "let n = Upper-Body IDLE\n",
+        "let n = Upper-Body IDLE # c\n",
+        "WALK with Upper-Body TALK with n\n",
+        "n with n\n",
     ),
 )
 JOINED = (

@@ -8,7 +8,7 @@ from typing import Final
 
 from mlmg_lang.definitions.expand import told_from
 from mlmg_lang.definitions.gather import Definitions
-from mlmg_lang.diagnostics import Diagnostic, has_errors
+from mlmg_lang.diagnostics import Diagnostic, Label, has_errors
 from mlmg_lang.moving import by, moved
 from mlmg_lang.parsing import syntax
 from mlmg_lang.parsing.amounts import seconds_from_quantity, unit_of
@@ -150,11 +150,28 @@ class Planner:
             return None
         ways = select(motion, self._scope.names, self._source, explains=self._scope.explains)
         if isinstance(ways, Diagnostic):
-            self.diagnostics.append(ways)
+            self.diagnostics.append(self._at_its_use(ways, command))
             return None
         remarks = (*graph_hints(motion, self._scope.names), *self._remarks(ways[0]))
         self.diagnostics += remarks
         return None if has_errors(remarks) else ways
+
+    def _at_its_use(self, one: Diagnostic, command: Span) -> Diagnostic:
+        """Return what is wrong with a command, told of the command if what it uses is right by itself."""
+        place = one.span
+        if place is None or _is_within(place, command):
+            return one
+        let = next((let for let in self._scope.own.values() if _is_within(place, let.span)), None)
+        if let is None or not self._can_be_played(let):
+            return one
+        return replace(one, span=command, labels=(*one.labels, Label(place, f"in `{let.name.text}`, which it uses")))
+
+    def _can_be_played(self, let: syntax.Let) -> bool:
+        """Return whether a definition, which names no other, is right as a command of its own."""
+        names = {normal(node.text) for node in syntax.walk(let.command.motion) if isinstance(node, syntax.Name)}
+        if let.parameters or names & self._scope.own.keys():
+            return False
+        return not isinstance(select(let.command.motion, self._scope.names, self._source, explains=False), Diagnostic)
 
     def _report(self, wrong: Iterable[Unbound]) -> bool:
         """Collect what is to be said of names that mean nothing; return whether there are any."""
@@ -211,11 +228,15 @@ def too_many(span: Span) -> Diagnostic:
     return Diagnostic("MS006", message, span, "is this the right library?")
 
 
+def _is_within(place: Span, whole: Span) -> bool:
+    return whole.start <= place.start and place.end <= whole.end
+
+
 def _written(wrong: Iterable[Unbound], command: Span) -> Iterator[Unbound]:
     """Yield names that mean nothing; what is wrong with those of definitions is reported where these stand."""
     for one in wrong:
         span = None if one.diagnostic is None else one.diagnostic.span
-        is_own = span is None or (command.start <= span.start and span.end <= command.end)
+        is_own = span is None or _is_within(span, command)
         yield one if is_own else Unbound(None)
 
 
