@@ -54,7 +54,8 @@ def made_graph(name: str, parent: str | None, tags: dict[str, tuple[str, ...]], 
     n = len(motions)
     rows = []
     for a in range(n):
-        rows.append((a, n_frames[a] - WINDOW - 15, a, 30 if parent is None else 60, 0.1))
+        home = 30 if parent is None else min(60, n_frames[a] - 45)  # before other ways out, so that there is a way on
+        rows.append((a, n_frames[a] - WINDOW - 15, a, home, 0.1))
         if a % 3 == 0:
             rows.append((a, n_frames[a] - WINDOW - 40, (a + 1) % n, WINDOW - 1, 0.3))
         for step in (1, 2, n - 1):

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from mlmg_lang.explaining.explain import explanation_from_analysis
@@ -297,6 +297,7 @@ BODIES = st.recursive(
 )
 
 
+@example(body="Upper-Body IDLE with Left-Hand WAVE for 2 sec; Idle_02 and WALK", start="Walk_03", ahead=False)
 @given(body=BODIES, start=st.sampled_from(["Idle_01", "Walk_03", "Idle_02"]), ahead=st.booleans())
 def test_whatever_a_script_says_it_is_explained(body, start, ahead, made_library, flat):
     analysis = analyse(Source(body, "script.ms"), made_library, start)
