@@ -2,14 +2,15 @@
 
 Each script of tests/scripts, examples and the pages on the language is edited in one place: a word or sign too many,
 one too few, twice, swapped with the next, misspelt, in the wrong case or from another keyboard. How many such texts are
-told of more than one error is measured, and may not become more. `--all-edits` tries all edits.
+told of more than one error is measured, and may not become more; so is how many are told of another error once the
+edits that are safe have been applied. `--all-edits` tries all edits.
 """
 
 from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import pairwise
 from pathlib import Path
@@ -30,6 +31,9 @@ FENCE = re.compile(r"^```motion-script(.*)\n((?:.*\n)*?)```", re.MULTILINE)
 N_TRIED = 2_000
 MOST = 0.005
 """The share of edits that may be told of more than one error."""
+N_MENDED = 500
+WORSE = 0.005
+"""The share of edits that may be told of another error once all edits have been applied that are said to be safe."""
 
 INSERTED = (
     *(",", ";", ".", ":", "=", "->", "|", "(", ")", "{", "}", '"', "3"),
@@ -142,16 +146,49 @@ def _misspelt(token: Token) -> Iterator[tuple[str, str]]:
         yield "letters swapped", before[:-1] + letter + before[-1] + after
 
 
-def test_one_slip_is_told_as_one_mistake(libraries: Mapping[str, Any], request: pytest.FixtureRequest) -> None:
+def slips(
+    libraries: Mapping[str, Any], request: pytest.FixtureRequest, n_tried: int
+) -> Sequence[tuple[Right, str, str]]:
+    """Return right scripts, each with the kind of a slip in it and the text then: about so many, or all."""
     every = [(script, *edit) for script in right_scripts(libraries) for edit in edits(script.text)]
     # Those of a kind stand beside each other, so that each kind is tried as often as it is there.
     every.sort(key=lambda one: one[1])
-    tried = every if request.config.getoption("--all-edits") else every[:: len(every) // N_TRIED]
+    return every if request.config.getoption("--all-edits") else every[:: len(every) // n_tried]
+
+
+def safely_mended(text: str, told: Sequence[Diagnostic]) -> str:
+    """Return a text with the safe edits of what is told of it, but those that touch one before them."""
+    found = (fix for one in told for fix in one.fixes[:1] if fix.safe and fix.span.end <= len(text))
+    end = len(text) + 1
+    for fix in sorted(found, key=lambda fix: fix.span, reverse=True):
+        if fix.span.end < end:
+            end = fix.span.start
+            text = text[:end] + fix.replacement + text[fix.span.end :]
+    return text
+
+
+def test_one_slip_is_told_as_one_mistake(libraries: Mapping[str, Any], request: pytest.FixtureRequest) -> None:
+    tried = slips(libraries, request, N_TRIED)
     wrong = [(kind, text) for script, kind, text in tried if len(script.errors(text, libraries)) > 1]
     share = len(wrong) / len(tried)
     kinds = Counter(kind for kind, _ in wrong).most_common()
     print(f"{len(wrong)} of {len(tried)} edits ({share:.2%}) give more than one error: {kinds}")
     assert share <= MOST, kinds
+
+
+def test_safe_edits_of_one_slip_lead_to_no_other_error(
+    libraries: Mapping[str, Any], request: pytest.FixtureRequest
+) -> None:
+    tried = slips(libraries, request, N_MENDED)
+    worse = []
+    for script, kind, text in tried:
+        told = script.errors(text, libraries)
+        mended = safely_mended(text, told)
+        known = {(one.code, one.message) for one in told}
+        left = script.errors(mended, libraries) if mended != text else []
+        worse += [f"{kind}: {one.message}" for one in left if (one.code, one.message) not in known][:1]
+    print(f"{len(worse)} of {len(tried)} edits are told of another error when mended: {worse}")
+    assert len(worse) / len(tried) <= WORSE, worse
 
 
 def test_the_edits_are_many_and_of_many_kinds(libraries: Mapping[str, Any]) -> None:

@@ -11,10 +11,10 @@ from mlmg_lang.diagnostics import Fix
 from mlmg_lang.parsing.amounts import SECONDS, UNITS, spelled
 from mlmg_lang.parsing.foreign import NUMBERS as IN_WORDS
 from mlmg_lang.parsing.line_parser import Stuck
-from mlmg_lang.parsing.mistakes.mistake import Mistake, across, found, mistake, replaced
+from mlmg_lang.parsing.mistakes.mistake import Mistake, across, found, mistake, n_unread, replaced
 from mlmg_lang.parsing.tokens import NAMES, NUMBERS, OPENS_STATEMENT, Token
 from mlmg_lang.source import Span
-from mlmg_lang.spelling import nearest
+from mlmg_lang.spelling import is_slip_of, nearest
 
 _OTHER_NUMBER: Final = re.compile(r"[0-9]+(?:_[0-9]+)*(?:\.[0-9]+)?(?:[eE]-?[0-9]{1,3})?")
 """A number as other languages write it."""
@@ -251,7 +251,7 @@ def for_missing(stuck: Stuck) -> Mistake | None:
         return None
     at = Span(number.span.start, number.span.start)
     before = stuck.token(-1)
-    is_sure = before is None or before.type != "NAME" or is_name(before.text)
+    is_sure = before is None or before.type != "NAME" or (is_name(before.text) and not is_slip_of(before.text, "for"))
     meant = replaced(stuck, stuck.at, Token("FOR", "for", at), n=0)
     advice = f"write `for {number.text} {unit.text.lower()}`"
     return mistake("MS010", "a duration stands after `for`", across(number, unit), advice,
@@ -296,12 +296,16 @@ def for_not_last(stuck: Stuck) -> Mistake | None:
     at = next((at for at in range(stuck.at) if tokens[at].type == "FOR"), None)
     if word is None or word.type not in ("WITH", "AND", "OR") or at is None:
         return None
-    if any(later.type in ("FOR", "ONCE") for later in tokens[stuck.at :]):
+    if stuck.type(-1) == "FOR" or any(later.type in ("FOR", "ONCE") for later in tokens[stuck.at :]):
         return None
+    if stuck.left == 1:
+        fix = Fix(Span(tokens[stuck.at - 1].span.end, word.span.end), "", safe=False)
+        message = f"`{word.text}` needs a motion after it, found the end of the statement"
+        return mistake("MS014", message, word.span, f"take `{word.text}` out", fix, meant=tokens[: stuck.at])
     amount = across(tokens[at], tokens[stuck.at - 1])
     right = f"{stuck.source.slice(across(word, tokens[-1]))} {stuck.source.slice(amount)}"
     meant = (*tokens[:at], *tokens[stuck.at :], *tokens[at : stuck.at])
-    fix = Fix(across(tokens[at], tokens[-1]), right, safe=True)
+    fix = Fix(across(tokens[at], tokens[-1]), right, safe=n_unread(stuck, meant) < 0)
     message = "`for` comes last, after all that is to be played"
     return mistake("MS010", message, amount, f"write `{right}`", fix, meant=meant)
 

@@ -134,7 +134,8 @@ def _definition(
         message, span = f"a definition begins with `let`, not with `{word.text}`", word.span
     else:
         message, span = "`=` stands between a name and what it is to mean", sign
-    fix = Fix(whole, right, safe=not is_bare)
+    # Names of graphs mostly have a hyphen; where no word says so, one that is a graph's is hardly to be defined.
+    fix = Fix(whole, right, safe=not is_bare and (word is not None or "-" not in names[0].text))
     return mistake("MS010", message, span, f"write `{right} ...`", fix, meant=tuple(meant))
 
 
@@ -190,12 +191,16 @@ def comma_missing(stuck: Stuck) -> Mistake | None:
     token = stuck.token(0)
     if token is None or token.type not in NAMES or not {"COMMA", "EQUALS"} <= stuck.accepts:
         return None
+    before = stuck.tokens[stuck.at - 1]
+    if before.text == token.text:
+        fix, message = Fix(Span(before.span.end, token.span.end), "", safe=True), f"`{token.text}` stands here twice"
+        return mistake("MS010", message, token.span, "take one of them out", fix, meant=replaced(stuck, stuck.at))
     needless = _needless_parameter(stuck, (stuck.at - 1, stuck.at))
     if needless is not None:
         word, meant = stuck.tokens[needless], replaced(stuck, needless)
         fix = Fix(_with_space(stuck, needless), "", safe=False)
         return mistake("MS010", f"`{word.text}` does not fit here", word.span, "take it out", fix, meant=meant)
-    place = Span(stuck.tokens[stuck.at - 1].span.end, stuck.tokens[stuck.at - 1].span.end)
+    place = Span(before.span.end, before.span.end)
     meant = replaced(stuck, stuck.at, Token("COMMA", ",", place), n=0)
     message = f"`,` is missing before `{token.text}`"
     return mistake("MS010", message, token.span, "parameters are separated by `,`", Fix(place, ",", safe=True),
