@@ -14,8 +14,10 @@ from mlmg_lang.definitions.expand import names_in
 from mlmg_lang.definitions.gather import Definitions
 from mlmg_lang.parsing.cutting import Balance, balance, cut
 from mlmg_lang.parsing.layout import Close
+from mlmg_lang.parsing.lookalikes import narrowed
 from mlmg_lang.parsing.nesting import Around, after
 from mlmg_lang.parsing.parse import MAX_MISTAKES
+from mlmg_lang.parsing.quotes import requoted
 from mlmg_lang.parsing.tokenize import tokenize
 from mlmg_lang.parsing.tokens import Token
 from mlmg_lang.pieces import Piece, read_in
@@ -79,7 +81,7 @@ def reread(before: InPieces, source: Source, edit: Edit) -> Spot:
     while True:
         spot = Source(source.text[starts[first] : starts[end] + edit.further], source.name)
         tokens, around = tokenize(spot), braces_before(lines, first)
-        cuts = cut(tokens, len(around))
+        cuts = cut(narrowed(requoted(tokens)), len(around))
         wider = _wider(lines, range(first, end), balance(tokens, len(around)))
         if wider is None and end < len(lines) and cuts.next != len(spot.text):
             wider = range(first, end + 1)

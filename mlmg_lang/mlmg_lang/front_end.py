@@ -15,7 +15,6 @@ from mlmg_lang.definitions.gather import Files, NoFiles, gather, gather_with
 from mlmg_lang.diagnostics import Diagnostic
 from mlmg_lang.parsing.lookalikes import opens_or_closes
 from mlmg_lang.parsing.parse import read_marks
-from mlmg_lang.parsing.quotes import requoted
 from mlmg_lang.parsing.syntax import Script, Use
 from mlmg_lang.parsing.tokenize import MAX_TOKENS, tokenize
 from mlmg_lang.pieces import Piece, lines_of
@@ -161,7 +160,7 @@ def _read_again(before: InPieces, source: Source) -> Change | None:
     spot = reread(before, source, edit_between(before.source.text, source.text))
     around, size = spot.around, len(spot.source.text)
     read = read_marks(spot.source, spot.tokens, around, spot.n_before)
-    if opens_or_closes(requoted(spot.tokens)) or read.deep:
+    if opens_or_closes(read.narrow) or read.deep:
         return None
     again = lines_of(size, spot.tokens, read, around, spot.n_before, before.room)
     first, new, end = without_same(before, spot, again)

@@ -171,7 +171,7 @@ def lines_of(
     around : the braces that it stands in. n_before : how many mistakes have been told before it.
     address : of its beginning; in what is given, that is 0.
     """
-    bounds = [0, *(() if read.deep else cut(tokens, len(around)).starts), size]
+    bounds = [0, *(() if read.deep else cut(read.narrow, len(around)).starts), size]
     wrong: list[list[Diagnostic]] = [[] for _ in bounds[1:]]
     for one in read.diagnostics:
         assert one.span is not None

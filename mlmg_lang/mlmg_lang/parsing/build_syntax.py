@@ -25,7 +25,7 @@ def name_from_token(token: Token) -> syntax.Name:
     """Return the name that a token spells, be it sound or not."""
     if token.type not in ("STRING", "UNCLOSED"):
         return syntax.Name(token.text, False, is_name(token.text), token.span)
-    closed = re.fullmatch(r'"(?:[^"\\]|\\.)*"', token.text) is not None
+    closed = re.fullmatch(r'"(?:[^"\\]++|\\.)*+"', token.text) is not None
     inside = token.text[1 : -1 if closed else None]
     sound = closed and inside.strip() != "" and not bad_escapes(inside)
     return syntax.Name(re.sub(r"\\(.)", r"\1", inside), True, sound, token.span)
@@ -33,7 +33,8 @@ def name_from_token(token: Token) -> syntax.Name:
 
 def bad_escapes(inside: str) -> list[str]:
     r"""Return the escapes in a quoted name that are neither `\"` nor `\\`."""
-    return [escape for escape in re.findall(r"\\.?", inside) if escape not in ('\\"', "\\\\")]
+    escapes = (found[0] for found in re.finditer(r"\\.?", inside))
+    return [escape for escape in escapes if escape not in ('\\"', "\\\\")]
 
 
 class _Builder(Transformer[lark.Token, Any]):

@@ -32,17 +32,18 @@ class Cuts:
     next: int | None
 
 
-def cut(tokens: Sequence[Token], depth: int = 0) -> Cuts:
+def cut(narrow: Sequence[Token], depth: int = 0) -> Cuts:
     """Return where a text may be cut. Every piece but the last has a token that is neither comment nor line end.
 
     Parameters
     ----------
+    narrow : its tokens, quotes and signs of other keyboards as they were meant; see `narrowed`.
     depth : how many blocks the text stands in.
     """
     starts: list[int] = []
     end: int | None = None
     empty = True
-    meant = _meant(tokens, depth)
+    meant = _meant(narrow, depth)
     for token, inside in zip(meant, inside_parentheses(meant), strict=True):
         kind = token.type
         if kind == "NEWLINE":
@@ -84,7 +85,7 @@ def balance(tokens: Sequence[Token], depth: int = 0) -> Balance:
     """Return what parentheses are left without a partner in some whole lines; `depth`: see `cut`."""
     n_closing = n_open = 0
     parts, first = False, True
-    for token in _meant(tokens, depth):
+    for token in _meant(narrowed(requoted(tokens)), depth):
         kind = token.type
         if kind in ENDS_PARENTHESES or (first and kind in OPENS_STATEMENT):
             n_open, parts = 0, True
@@ -97,6 +98,6 @@ def balance(tokens: Sequence[Token], depth: int = 0) -> Balance:
     return Balance(n_closing, n_open, parts)
 
 
-def _meant(tokens: Sequence[Token], depth: int) -> Sequence[Token]:
+def _meant(narrow: Sequence[Token], depth: int) -> Sequence[Token]:
     """Return the tokens that layout goes by."""
-    return without_strays(in_order(without_lone(without_comments(narrowed(requoted(tokens))))), depth)
+    return without_strays(in_order(without_lone(without_comments(narrow))), depth)

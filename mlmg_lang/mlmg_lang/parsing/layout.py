@@ -220,11 +220,11 @@ class _Cutter:
 
     def _is_weight(self) -> bool:
         """Return whether the line is the weight of a branch, or meant for one with a word or sign too many."""
-        first, *rest, _ = self._line if len(self._line) > 1 else (self._line[0], self._line[0])
-        if first.type == "INTEGER" and not rest:
+        *before, _ = self._line[:4]
+        if len(self._line) <= 2 and self._line[0].type == "INTEGER":
             return True
         in_choice = bool(self._chooses) and self._chooses[-1]
-        return in_choice and len(rest) == 1 and not {first.type, rest[0].type}.isdisjoint(NUMBERS)
+        return in_choice and len(before) == 2 and any(token.type in NUMBERS for token in before)
 
     def finish(self) -> Marked:
         """End the last line, and return all."""

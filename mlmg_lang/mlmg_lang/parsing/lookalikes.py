@@ -9,16 +9,18 @@ from __future__ import annotations
 
 import re
 import unicodedata
-from bisect import bisect_right
+from bisect import bisect_left, bisect_right
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
+from itertools import islice
 from types import MappingProxyType
 from typing import Final
 
-from mlmg_grammar import is_name, reserved_words, scan
+from mlmg_grammar import is_name, reserved_words
 from mlmg_lang.diagnostics import Diagnostic, Fix
 from mlmg_lang.parsing.amounts import UNITS
 from mlmg_lang.parsing.build_syntax import motion_script
+from mlmg_lang.parsing.tokenize import MAX_TOKENS, scanned
 from mlmg_lang.parsing.tokens import Token
 from mlmg_lang.source import Source, Span
 from mlmg_lang.spelling import listed
@@ -34,6 +36,8 @@ _WIDE: Final = r"[\uff21-\uff3a\uff41-\uff5a]|[^\D0-9]"
 """A letter or digit that could be one of ASCII in other width, or of another script."""
 _ODD: Final = re.compile(rf"[{''.join(map(re.escape, _SIGNS))}]|\b\w*(?:{_WIDE})\w*")
 """A sign of another keyboard, or a word with such a letter or digit."""
+_MAX_ODD: Final = 10_000
+"""So many are told of in a line."""
 _OPENS: Final = ("//", "--", "/*")
 """What comments begin with in other languages; the last goes on to `*/`."""
 
@@ -64,6 +68,28 @@ def _is_inside(span: Span, others: Sequence[Span]) -> bool:
 # --- signs -----------------------------------------------------------------------------------------------
 
 
+def as_far_as_read(tokens: Sequence[Token]) -> Sequence[Token]:
+    """Return tokens up to where those `narrowed` could be more than `MAX_TOKENS`; the very same if they are not.
+
+    Each code point of a name with signs of other keyboards could become a token.
+    """
+    if not tokens or tokens[-1].span.end - tokens[0].span.start <= MAX_TOKENS:
+        return tokens
+    room = MAX_TOKENS
+    for at, token in enumerate(tokens):
+        size = len(token.text) if _may_be_odd(token) else 1
+        if size > room:
+            end = token.span.start + room
+            part = replace(token, text=token.text[:room], span=Span(token.span.start, end))
+            return [*tokens[:at], *([part] if room else ())]
+        room -= size
+    return tokens
+
+
+def _may_be_odd(token: Token) -> bool:
+    return token.type == "NAME" and not token.text.isascii() and _ODD.search(token.text) is not None
+
+
 def narrowed(tokens: Sequence[Token]) -> Sequence[Token]:
     """Return tokens with those cut anew that hold signs of other keyboards; the very same if there are none."""
     if not any(token.type == "NAME" and not token.text.isascii() for token in tokens):
@@ -73,27 +99,22 @@ def narrowed(tokens: Sequence[Token]) -> Sequence[Token]:
     for token in tokens:
         in_comment = in_comment and token.type != "NEWLINE"
         if not in_comment:
-            parts = _cut(token)
+            parts = tuple(_cut(token))
             found += parts or (token,)
             is_odd = is_odd or bool(parts)
             in_comment = found[-1].type == "COMMENT"
     return found if is_odd else tokens
 
 
-def _cut(token: Token) -> Sequence[Token]:
-    """Return what a name is that holds such signs, or is one; nothing for all other tokens."""
+def _cut(token: Token) -> Iterator[Token]:
+    """Yield what a name is that holds such signs, or is one; nothing for all other tokens."""
     if token.type != "NAME" or token.text.isascii():
-        return ()
+        return
     narrow = _narrow(token.text)
-    if narrow == token.text:
-        return (replace(token, type="UNKNOWN"),) if _is_sign(narrow) else ()
-    parts = []
-    for piece in scan(motion_script(), narrow):
-        assert piece.start_pos is not None
-        start = token.span.start + piece.start_pos
-        if piece.type != "SPACE":
-            parts.append(Token(piece.type, str(piece), Span(start, start + len(piece))))
-    return parts
+    if narrow != token.text:
+        yield from scanned(narrow, token.span.start)
+    elif _is_sign(narrow):
+        yield replace(token, type="UNKNOWN")
 
 
 def _is_sign(text: str) -> bool:
@@ -125,12 +146,14 @@ def _plain(letter: str) -> str:
 def _odd_lines(tokens: Sequence[Token]) -> Iterator[list[Token]]:
     """Yield the tokens with such signs, those of a line together, but not what stands in a comment then."""
     line: list[Token] = []
+    in_comment = False
     for token in tokens:
         if token.type == "NEWLINE" and line:
             yield line
-            line = []
-        elif _is_odd(token) and not (line and "#" in _narrow(line[-1].text)) and not _is_told_elsewhere(token):
+            line, in_comment = [], False
+        elif not in_comment and len(line) < _MAX_ODD and _is_odd(token) and not _is_told_elsewhere(token):
             line.append(token)
+            in_comment = "#" in _narrow(token.text)
     if line:
         yield line
 
@@ -141,13 +164,14 @@ def _is_odd(token: Token) -> bool:
 
 def _is_told_elsewhere(token: Token) -> bool:
     """Return whether a sign is left that means nothing either, alone or before a number: the line tells more of it."""
-    first, *rest = _cut(token)
+    rest = _cut(token)
+    first = next(rest)
     return first.type == "UNKNOWN" and all(part.type in ("INTEGER", "DECIMAL") for part in rest)
 
 
 def _wide(tokens: Sequence[Token], source: Source) -> Diagnostic:
     """Say what is wrong with the signs of a line."""
-    changes = [change for token in tokens for change in _changes(token)]
+    changes = list(islice((change for token in tokens for change in _changes(token)), _MAX_ODD))
     wrong = list(dict.fromkeys((source.slice(span), plain) for span, plain in changes))
     span = Span(changes[0][0].start, changes[-1][0].end)
     pieces, end = [], span.start
@@ -193,9 +217,11 @@ def without_comments(tokens: Sequence[Token]) -> Sequence[Token]:
 def _comments(tokens: Sequence[Token]) -> Iterator[tuple[int, int]]:
     """Yield where a comment of another language begins and ends, as the indices of its first and last token."""
     last = -1
-    for at in [at for at, token in enumerate(tokens) if token.type == "UNKNOWN"]:
+    unknown = [at for at, token in enumerate(tokens) if token.type == "UNKNOWN"]
+    closing = [at for at in unknown if tokens[at].text.endswith("*/") and tokens[at].text != "/*/"]
+    for at in unknown:
         if at > last and _opens(tokens, at):
-            last = _end_of_comment(tokens, at)
+            last = _end_of_comment(tokens, at, closing)
             yield at, last
 
 
@@ -206,17 +232,15 @@ def _opens(tokens: Sequence[Token], at: int) -> bool:
     return before is None or before.type == "NEWLINE" or before.span.end < tokens[at].span.start
 
 
-def _end_of_comment(tokens: Sequence[Token], first: int) -> int:
+def _end_of_comment(tokens: Sequence[Token], first: int, closing: Sequence[int]) -> int:
+    """Return the last token of a comment; `closing`: all that could be, of one that may go over lines."""
     last = first
     while last + 1 < len(tokens) and tokens[last + 1].type != "NEWLINE":
         last += 1
     if not tokens[first].text.startswith("/*"):
         return last
-    rest = enumerate(tokens[first:], start=first)
-    closing = (
-        at for at, token in rest if token.type == "UNKNOWN" and token.text.endswith("*/") and token.text != "/*/"
-    )
-    return next(closing, last)
+    at = bisect_left(closing, first)
+    return closing[at] if at < len(closing) else last
 
 
 def _comment(span: Span, source: Source) -> Diagnostic:
@@ -234,12 +258,12 @@ def _comment(span: Span, source: Source) -> Diagnostic:
     return Diagnostic("MS003", f"`{sign}` means nothing in Motion Script", place, advice, fixes=fixes)
 
 
-def opens_or_closes(tokens: Sequence[Token]) -> bool:
-    """Return whether there is a sign that could make a comment of other lines, where quotes have been seen to."""
-    return any(token.type == "UNKNOWN" and ("/*" in token.text or "*/" in token.text) for token in narrowed(tokens))
+def opens_or_closes(narrow: Sequence[Token]) -> bool:
+    """Return whether there is a sign among narrowed tokens that could make a comment of other lines."""
+    return any(token.type == "UNKNOWN" and ("/*" in token.text or "*/" in token.text) for token in narrow)
 
 
 def has_other_comments(tokens: Sequence[Token]) -> bool:
     """Return whether some of the tokens are meant to be comments, and are none."""
-    narrow = narrowed(tokens)
+    narrow = narrowed(as_far_as_read(tokens))
     return any(_comments(narrow)) or any(token.type == "NAME" and "#" in _narrow(token.text) for token in tokens)

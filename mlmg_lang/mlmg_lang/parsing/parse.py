@@ -13,7 +13,7 @@ from mlmg_lang.parsing.build_syntax import name_from_token
 from mlmg_lang.parsing.layout import MAX_DEPTH, mark
 from mlmg_lang.parsing.lexical import check_tokens, join_quoted
 from mlmg_lang.parsing.line_parser import Stuck, read
-from mlmg_lang.parsing.lookalikes import lookalikes, narrowed, without_comments
+from mlmg_lang.parsing.lookalikes import as_far_as_read, lookalikes, narrowed, without_comments
 from mlmg_lang.parsing.nesting import Around, Braces, Mark, Opened, nested
 from mlmg_lang.parsing.quotes import CURLY, requoted, without_lone
 from mlmg_lang.parsing.strays import stray_signs, without_strays
@@ -45,11 +45,13 @@ class Read:
     Attributes
     ----------
     deep : whether braces are nested too deep: what stands in them is left out.
+    narrow : all tokens, with quotes without a partner and signs of other keyboards as they were meant.
     """
 
     marks: tuple[Mark, ...]
     diagnostics: tuple[Diagnostic, ...]
     deep: bool
+    narrow: Sequence[Token]
 
 
 def parse(source: Source, tokens: Sequence[Token], base: int = 0) -> Parsed:
@@ -78,9 +80,11 @@ def read_marks(source: Source, tokens: Sequence[Token], around: Around = (), n_b
     around : the braces that it stands in.
     n_before : how many mistakes have been told before it, that nothing more is read too; see `counted`.
     """
-    last = tokens[-1] if len(tokens) == MAX_TOKENS else None
     left = max(MAX_MISTAKES - n_before, 0)
-    tokens = requoted(tokens)
+    quoted = requoted(tokens)
+    is_cut_off = MAX_TOKENS in (len(tokens), len(quoted))
+    tokens = as_far_as_read(quoted)
+    last = tokens[-1] if is_cut_off or tokens is not quoted else None
     narrow = narrowed(tokens)
     wrong = list(islice(lookalikes(tokens, narrow, source), left))
     tokens = join_quoted(without_comments(narrow), source)
@@ -94,7 +98,7 @@ def read_marks(source: Source, tokens: Sequence[Token], around: Around = (), n_b
     reader = _Reader(source, sorted(wrong, key=_start), n_before)
     marks = tuple(reader.marks(marked.marks, around))
     told = reader.told()
-    return Read(marks, told if last is None else (*told, _cut_off(last)), marked.deep)
+    return Read(marks, told if last is None else (*told, _cut_off(last)), marked.deep, narrow)
 
 
 def counted(n_before: int, told: Sequence[Diagnostic]) -> range:

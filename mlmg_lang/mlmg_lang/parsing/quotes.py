@@ -8,32 +8,36 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
-from itertools import groupby
+from itertools import groupby, islice
 from typing import Final
 
-from mlmg_grammar import scan
-from mlmg_lang.parsing.build_syntax import motion_script
+from mlmg_lang.parsing.tokenize import MAX_TOKENS, scanned
 from mlmg_lang.parsing.tokens import ENDS_PARENTHESES, Token
 from mlmg_lang.source import Span
 
 CURLY: Final = frozenset("\u201c\u201d\u201e\u201f\u00ab\u00bb\u2018\u2019\u201a\uff02")
 """What editors for prose make of quotes."""
-ENDS_NAME: Final = re.compile(r"\s*#|\s+(?:with|and|or|for|once)(?!\S)|\s*[(){}|;:,=\"]|\s+[0-9]|\s*$")
-"""What stands rather behind a name whose closing quote was forgotten than in it."""
-_MAX_TOKENS: Final = 200
-"""The longest line that is looked into: it is cut anew behind each such quote."""
+ENDS_NAME: Final = re.compile(r"(?<!\s)(?:\s*#|\s+(?:with|and|or|for|once)(?!\S)|\s*[(){}|;:,=\"]|\s+[0-9]|\s*$)")
+"""What stands rather behind a name whose closing quote was forgotten than in it, with all spaces before it."""
+_MAX_LINE: Final = 200
+_MAX_SIZE: Final = 2_000
+"""The longest line that is looked into, in tokens and in code points."""
+_MAX_CUTS: Final = 20
+"""So often a line is cut anew: behind each such quote."""
 _PRINTED: Final = re.compile(f"[{''.join(CURLY)}]")
 
 
 def requoted(tokens: Sequence[Token]) -> Sequence[Token]:
     """Return tokens with quotes that have no partner cut off where their names probably end; the very same if none.
 
-    What is left of such a quote is a token `UNCLOSED`: with the name, or the quote alone if there is none.
+    At most `MAX_TOKENS` are returned. What is left of such a quote is a token `UNCLOSED`: with the name, or the quote
+    alone if there is none.
     """
     if not any(token.type == "UNCLOSED" for token in tokens):
         return tokens
     lines = groupby(tokens, key=lambda token: token.type == "NEWLINE")
-    return [token for is_end, line in lines for token in (line if is_end else _line(list(line)))]
+    found = (token for is_end, line in lines for token in (line if is_end else _line(list(line))))
+    return list(islice(found, MAX_TOKENS))
 
 
 def without_lone(tokens: Sequence[Token]) -> Sequence[Token]:
@@ -50,12 +54,14 @@ def is_lone(token: Token) -> bool:
 
 def _line(tokens: Sequence[Token]) -> Iterator[Token]:
     """Yield the tokens of a line, cut anew from the first quote that has no partner."""
-    while len(tokens) <= _MAX_TOKENS and (at := _without_partner(tokens)) is not None:
+    n_cuts = 0 if tokens[-1].span.end - tokens[0].span.start <= _MAX_SIZE else _MAX_CUTS
+    while n_cuts < _MAX_CUTS and len(tokens) <= _MAX_LINE and (at := _without_partner(tokens)) is not None:
         yield from tokens[:at]
         start, text = tokens[at].span.start, _text(tokens[at:])
         size = _size(text)
         yield Token("UNCLOSED", text[:size], Span(start, start + size))
-        tokens = list(_scanned(text[size:], start + size))
+        tokens = list(scanned(text[size:], start + size))
+        n_cuts += 1
     yield from tokens
 
 
@@ -91,11 +97,3 @@ def _text(tokens: Sequence[Token]) -> str:
         pieces += [" " * (token.span.start - end), token.text]
         end = token.span.end
     return "".join(pieces)
-
-
-def _scanned(text: str, start: int) -> Iterator[Token]:
-    for piece in scan(motion_script(), text):
-        assert piece.start_pos is not None
-        if piece.type != "SPACE":
-            place = start + piece.start_pos
-            yield Token(piece.type, str(piece), Span(place, place + len(piece)))

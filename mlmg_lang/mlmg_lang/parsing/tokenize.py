@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from itertools import islice
 
 from mlmg_grammar import scan
@@ -20,10 +21,13 @@ def tokenize(source: Source, base: int = 0) -> tuple[Token, ...]:
     ----------
     base : where the file begins whose tokens are wanted: the script itself, or one that it uses.
     """
-    text = source.file(base)[0].text
-    found = (
-        Token(piece.type, str(piece), Span(base + piece.start_pos, base + piece.start_pos + len(piece)))
+    return tuple(islice(scanned(source.file(base)[0].text, base), MAX_TOKENS))
+
+
+def scanned(text: str, start: int) -> Iterator[Token]:
+    """Return the tokens of a text, all but white space; `start`: where it begins."""
+    return (
+        Token(piece.type, str(piece), Span(start + piece.start_pos, start + piece.start_pos + len(piece)))
         for piece in scan(motion_script(), text)
         if piece.type != "SPACE" and piece.start_pos is not None
     )
-    return tuple(islice(found, MAX_TOKENS))

@@ -8,8 +8,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mlmg_lang.parsing.cutting import Balance, balance, cut
+from mlmg_lang.parsing.lookalikes import narrowed
 from mlmg_lang.parsing.nesting import Around, Mark, after
 from mlmg_lang.parsing.parse import read_marks
+from mlmg_lang.parsing.quotes import requoted
 from mlmg_lang.parsing.tokenize import tokenize
 from mlmg_lang.source import Source
 
@@ -34,7 +36,7 @@ BITS = (
 
 
 def pieces(text: str) -> list[str]:
-    bounds = [0, *cut(tokenize(Source(text))).starts, len(text)]
+    bounds = [0, *cut(narrowed(requoted(tokenize(Source(text))))).starts, len(text)]
     return [text[first:last] for first, last in itertools.pairwise(bounds)]
 
 
