@@ -161,7 +161,6 @@ def odd_texts() -> dict[str, str]:
         "10 MB of random Unicode": "".join(draw.choices(letters, k=size)),
         "10 MB of (": "(" * size,
         '10 MB of "': '"' * size,
-        '10 MB of \\" behind a quote': '"' + '\\"' * (size // 2),
         "10 MB of spaces behind a quote": '"W' + " " * size + "x",
         "10 MB of ( behind a quote": '"' + "(" * size,
         "10 million wide (": "\uff08" * size,
