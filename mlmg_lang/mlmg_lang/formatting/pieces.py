@@ -38,6 +38,9 @@ def is_weight(piece: Piece) -> bool:
 
 
 def would_go_on(piece: Piece) -> bool:
-    """Return whether a piece would belong to the line above it, were that not ended by a `;`."""
+    """Return whether a piece would belong to the line above it, were that not ended by a `;`.
+
+    Behind a quote without a partner, which may open nothing, any word may be the first.
+    """
     tokens = beginning(piece)
-    return not tokens or tokens[0].type in CONTINUES
+    return not tokens or tokens[0].type in CONTINUES or tokens[0].type == "UNCLOSED"

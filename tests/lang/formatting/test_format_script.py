@@ -69,6 +69,7 @@ def test_a_valid_script_keeps_its_meaning_and_comments(
 
 @settings(max_examples=150)
 @example('WALK } " WALK')
+@example('WALK ; " with')
 @example("2: { with")
 @given(st.lists(st.sampled_from(PIECES), max_size=30).map(" ".join))
 def test_any_words_keep_their_mistakes_and_comments(formatted: Formatted, text: str) -> None:
