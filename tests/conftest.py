@@ -25,7 +25,7 @@ os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
 def pytest_addoption(parser: pytest.Parser) -> None:
     parser.addoption("--update-golden", action="store_true", help="rewrite the files in tests/golden and tests/invalid")
     parser.addoption("--all-edits", action="store_true", help="try every slip of the hand, not a part of them")
-    parser.addoption("--edits", type=int, default=120, help="how many random edits the language server is tried with")
+    parser.addoption("--edits", type=int, default=90, help="how many random edits the language server is tried with")
 
 
 @pytest.fixture(scope="session")

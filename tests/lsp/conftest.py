@@ -122,6 +122,12 @@ class Client:
         document = {"uri": uri, "languageId": "motion-script", "version": version, "text": text}
         self.notify("textDocument/didOpen", {"textDocument": document})
 
+    def close_text(self, uri: str) -> None:
+        """Close a text, and forget all that has been said so far."""
+        self.notify("textDocument/didClose", {"textDocument": {"uri": uri}})
+        self.outcome(self.begin("textDocument/hover"))  # a refusal, behind all that is said of the text
+        self.forget()
+
     def edit(self, uri: str, version: int, *changes: Any) -> None:
         document = {"uri": uri, "version": version}
         self.notify("textDocument/didChange", {"textDocument": document, "contentChanges": list(changes)})

@@ -74,7 +74,7 @@ def test_the_motion_is_written_beside_the_script_and_it_is_said_where(client, sc
 
 
 def test_it_is_shown_how_far_the_playing_is(client, script):
-    client.edit(script.as_uri(), 2, {"text": TEXT * 200})
+    client.edit(script.as_uri(), 2, {"text": TEXT * 80})
     client.begin("workspace/executeCommand", command("play", uri=script.as_uri()))
     wanted = client.wait(lambda one: "Playing" in str(one.get("params")))["params"]
     assert wanted["value"] == {"kind": "begin", "title": "Playing", "cancellable": True}

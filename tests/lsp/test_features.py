@@ -21,11 +21,17 @@ SNIPPETS = {"textDocument": {"completion": {"completionItem": {"snippetSupport":
 DEFINED = "# 😀\r\nlet greet(who, t = 2 sec) = who with Upper-Body WAVE for t\r\ngreet(WALK)\r\ngreet(IDLE, 3 sec)"
 
 
-@pytest.fixture
-def client(start):
-    client = start()
+@pytest.fixture(scope="module")
+def editor(start_for_all):
+    client = start_for_all()
     client.initialize(SNIPPETS)
     return client
+
+
+@pytest.fixture
+def client(editor):
+    yield editor
+    editor.close_text(URI)
 
 
 def opened(client, text: str) -> None:
