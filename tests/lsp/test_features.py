@@ -324,7 +324,7 @@ def position(text: str, offset: int, encoding: str) -> dict[str, int]:
     return {"line": len(lines) - 1, "character": len(lines[-1].encode(name)) // size}
 
 
-@pytest.mark.parametrize(("encoding", "n_edits"), [("utf-16", 150), ("utf-8", 100), ("utf-32", 100)])
+@pytest.mark.parametrize(("encoding", "n_edits"), [("utf-16", 90), ("utf-8", 60), ("utf-32", 60)])
 def test_after_any_edits_diagnostics_are_those_of_a_fresh_analysis(start, demo_library, encoding, n_edits):
     client = start()
     client.initialize({"general": {"positionEncodings": [encoding]}})

@@ -39,7 +39,7 @@ def wanted(snapshot: Snapshot, place) -> list[tuple[dict[str, int], str, str, li
 
 @pytest.mark.parametrize("encoding", ["utf-8", "utf-16", "utf-32"])
 def test_after_any_edits_they_are_those_of_a_fresh_server(snapshots, afresh, position, encoding):
-    for snapshot in snapshots(encoding, 80):
+    for snapshot in snapshots(encoding, 40):
         found = told(snapshot)
         assert found == wanted(afresh(snapshot), position), snapshot.analysis.source.text
 

@@ -39,7 +39,7 @@ def canonical(text: str) -> str:
 @pytest.mark.parametrize("encoding", ["utf-8", "utf-16", "utf-32"])
 def test_after_any_edits_it_is_that_of_the_whole(snapshots, encoding):
     ways = set()
-    for snapshot in snapshots(encoding, 150):
+    for snapshot in snapshots(encoding, 60):
         text = snapshot.analysis.source.text
         assert applied(text, formatting(snapshot, ALL), encoding) == canonical(text), text
         ways.add(snapshot.kept["forms"].alone)

@@ -30,7 +30,7 @@ def without_kinds(one: dict[str, Any]) -> dict[str, Any]:
 
 @pytest.mark.parametrize("encoding", ["utf-8", "utf-16", "utf-32"])
 def test_after_any_edits_it_is_that_of_a_fresh_server(snapshots, afresh, position, encoding):
-    for snapshot in snapshots(encoding, 80):
+    for snapshot in snapshots(encoding, 40):
         text = snapshot.analysis.source.text
         wanted = [
             plainly(one, lambda offset, text=text: position(text, offset, encoding))

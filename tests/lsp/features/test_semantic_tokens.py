@@ -52,7 +52,7 @@ def test_after_any_edits_a_client_that_asks_for_what_has_changed_has_what_a_fres
 ):
     has: list[int] = []
     result = ""
-    for snapshot in snapshots(encoding, 80):
+    for snapshot in snapshots(encoding, 40):
         answer = json.loads((delta(snapshot, since(result)) if result else full(snapshot, ALL)).text)
         has = answer["data"] if "data" in answer else applied(has, answer["edits"])
         result = answer["resultId"]
@@ -75,7 +75,7 @@ def test_who_has_another_answer_than_the_last_is_told_all(snapshots):
 
 
 def test_of_a_stretch_the_same_is_told_as_of_all(snapshots):
-    for snapshot in snapshots("utf-16", 40):
+    for snapshot in snapshots("utf-16", 20):
         data = json.loads(full(snapshot, ALL).text)["data"]
         n_lines = len(snapshot.analysis.source.line_starts)
         place = types.Range(types.Position(0, 0), types.Position(n_lines, 0))
