@@ -1,6 +1,7 @@
 ;; What `drive_emacs.el' asks for, with eglot.
 (require 'eglot)
 (setq eglot-sync-connect 60
+      eglot-connect-timeout 120
       jsonrpc-default-request-timeout 60)
 
 (defun drive-join ()
