@@ -14,6 +14,7 @@ from mlmg_lang.definitions.expand import Expander
 from mlmg_lang.definitions.gather import Definitions
 from mlmg_lang.diagnostics import Diagnostic
 from mlmg_lang.parsing import syntax
+from mlmg_lang.parsing.build_syntax import name_from_token
 from mlmg_lang.parsing.lexical import script_name
 from mlmg_lang.parsing.line_parser import read
 from mlmg_lang.parsing.structure import SUB, is_sub
@@ -103,7 +104,7 @@ class Reach:
         if token.type not in NAMES:
             return None
         if token.text != SUB:
-            return self.names.graph(_plain(token))
+            return self.names.graph(name_from_token(token).text)
         left = left_of_with(before)
         return None if left is None else next((graph for graph, _ in self.rooms_below(left)), None)
 
@@ -168,8 +169,3 @@ def left_of_with(own: Sequence[Token]) -> Sequence[Token] | None:
         elif kind == "WITH" and depth == 0 and with_at is None:
             with_at = at
     return None if with_at is None else own[:with_at]
-
-
-def _plain(token: Token) -> str:
-    """Return what a name says, without quotes."""
-    return token.text[1:-1].replace('\\"', '"').replace("\\\\", "\\") if token.type == "STRING" else token.text

@@ -18,7 +18,7 @@ from mlmg_lang.parsing.build_syntax import motion_script, name_from_token
 from mlmg_lang.parsing.lexical import check_tokens, script_name
 from mlmg_lang.parsing.structure import SUB
 from mlmg_lang.parsing.tokenize import tokenize
-from mlmg_lang.parsing.tokens import NAMES
+from mlmg_lang.parsing.tokens import NAMES, Token
 from mlmg_lang.source import Source, Span
 from mlmg_lang.spelling import normal
 
@@ -197,7 +197,8 @@ def _meant_already(script: Analysis, name: str) -> Iterator[Refusal]:
     for symbol in _undefined(script, name):
         for one in occurrences_of(script, symbol):
             written = script.source.slice(one.span)
-            if normal(written.strip('"').replace('\\"', '"').replace("\\\\", "\\")) == name:
+            kind = "STRING" if written.startswith('"') else "NAME"
+            if normal(name_from_token(Token(kind, written, one.span)).text) == name:
                 line, _ = script.source.position(one.span.start)
                 yield Refusal(f"`{name}` means something else in line {line} already")
 
