@@ -119,7 +119,8 @@ class Workspace:
             If a file cannot be read.
         """
         place, option = self.place_of(document), self._option(document)
-        path = await off_loop(lambda: find_library(place, option, progress))
+        # Whole, as it imports what builds the demo library.
+        path = await off_loop(lambda: find_library(place, option, progress), is_whole=True)
         if path is None:
             return None
         if not self.shelf.has(path):

@@ -60,7 +60,11 @@ class Client:
 
     def ask(self, method: str, params: Any = None) -> Any:
         """Return what is answered to a request."""
-        answer = self.outcome(self.begin(method, params))
+        return self.result(self.begin(method, params))
+
+    def result(self, number: int) -> Any:
+        """Return what is answered to a request that has been sent."""
+        answer = self.outcome(number)
         assert "error" not in answer, answer
         return answer["result"]
 

@@ -53,8 +53,8 @@ class Editor:
         tokens = self.client.begin(*self.asking_for_tokens())
         methods = ("documentSymbol", "foldingRange")
         numbers = [(method, self.client.begin(f"textDocument/{method}", asked)) for method in methods]
-        self.tokens = with_changes(self.tokens, self.client.outcome(tokens)["result"])
-        found = {method: self.client.outcome(number)["result"] for method, number in numbers}
+        self.tokens = with_changes(self.tokens, self.client.result(tokens))
+        found = {method: self.client.result(number) for method, number in numbers}
         found["tokens"] = self.tokens["data"]
         if "diagnostic" in WAYS[self.encoding].get("textDocument", {}):
             found["diagnostics"] = self.client.ask("textDocument/diagnostic", asked)["items"]

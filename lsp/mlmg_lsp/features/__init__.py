@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from importlib import import_module
+from pkgutil import walk_packages
 from typing import Any, Final, TypeAlias
 
 from lsprotocol import types
@@ -96,6 +97,9 @@ HINTS_AHEAD: Final = "inlay_hint.get_ahead"
 WORKSPACE_SYMBOL: Final = "workspace_symbol.workspace_symbol"
 """What looks for names in all open texts."""
 
+_COMPILER: Final = tuple(f"mlmg_lang.{one}" for one in ("definitions", "formatting", "ide", "parsing", "planning"))
+"""The packages of which analyses and answers import modules where they need them."""
+
 RESOLVING: Final[tuple[tuple[str, str], ...]] = (
     (types.COMPLETION_ITEM_RESOLVE, "completion.resolve"),
     (types.CODE_ACTION_RESOLVE, "code_action.resolve"),
@@ -111,9 +115,10 @@ def answer_named(name: str) -> Answer:
 
 
 def warm() -> None:
-    """Import all that answers, and let the compiler do once what it does at each key.
+    """Import all that answers, with all of the compiler, and let that do once what it does at each key.
 
-    Work is interrupted that nobody waits for any more; a module that is being imported had better not be.
+    Work is interrupted that nobody waits for any more. A module that is being imported then would be half imported from
+    then on, so nothing is left to be imported later: not even what the compiler needs for rare mistakes only.
     """
     from mlmg_lang.front_end import analyse, analyse_again
     from mlmg_lang.source import Source
@@ -121,6 +126,9 @@ def warm() -> None:
 
     for name in (*(name for _, _, name in FEATURES), *(name for _, name in RESOLVING), INLAY_HINT, WORKSPACE_SYMBOL):
         answer_named(name)
+    for package in _COMPILER:
+        for found in walk_packages(import_module(package).__path__, f"{package}."):
+            import_module(found.name)
     before = analyse(Source("let a = B for 1 sec\nrepeat 2 {\nA with\n}\n"), Nothing())
     _ = before.ready
     _ = analyse_again(before, Source("let a = B for 2 sec\na\nA\n")).diagnostics
