@@ -10,7 +10,7 @@ from typing import Any
 from lsprotocol import types
 from pygls.exceptions import JsonRpcException, JsonRpcInvalidParams
 
-from mlmg_lsp.documents import path_of
+from mlmg_lsp.open_text import path_of
 
 
 class Refused(JsonRpcException):

@@ -16,7 +16,7 @@ from mlmg_lang.diagnostics import Diagnostic, Severity
 from mlmg_lang.ide.links import use_leading_to
 from mlmg_lang.rules import page_of, read_rule
 from mlmg_lang.source import Source, Span
-from mlmg_lsp.documents import Snapshot
+from mlmg_lsp.open_text import Snapshot
 from mlmg_lsp.positions import EditorPosition, Encoding, offset_from_position, range_from_span, units_in
 
 _SEVERITIES: Final = {

@@ -4,20 +4,20 @@ from __future__ import annotations
 
 import asyncio
 import os
-from collections.abc import Awaitable, Callable, Iterator, Mapping
+from collections.abc import Awaitable, Callable, Iterator
 from contextlib import suppress
-from dataclasses import dataclass, field
+from dataclasses import dataclass, replace
 from functools import partial
 from itertools import count
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from lsprotocol import types
-from pygls.uris import to_fs_path
 
 from mlmg_lang.source import Source
 from mlmg_lsp.client import Client
 from mlmg_lsp.memory import clear_out, settle, undisturbed, unsettle
+from mlmg_lsp.open_text import Beginning, Document, Snapshot, Superseded, path_of
 from mlmg_lsp.positions import EditorPosition
 from mlmg_lsp.texts import edited, lines_of
 from mlmg_lsp.work import off_loop
@@ -32,77 +32,6 @@ GRACE_S = 1.0
 """So long the first analysis waits for the library, so that a script does not show mistakes which it has not."""
 
 
-class Superseded(Exception):
-    """The text has changed before what was asked of it could be answered."""
-
-
-@dataclass(frozen=True, slots=True)
-class Snapshot:
-    """A text at one moment, and all that can be asked of it.
-
-    Attributes
-    ----------
-    version : as the client counts; None for a text that is not open.
-    shelved : its library; None without one.
-    opened : all open texts, with their versions, by the names of their files.
-    others : what is known of those that are not this one.
-    kept : what features keep of a text from one answer to the next, by their names.
-    revision : the number of the analysis among all of the client, so that two can be told apart.
-    """
-
-    uri: str
-    version: int | None
-    analysis: Analysis
-    shelved: Shelved | None
-    client: Client
-    opened: Mapping[str, tuple[str, int]] = field(default_factory=dict)
-    others: tuple[Analysis, ...] = ()
-    kept: dict[str, Any] = field(default_factory=dict)
-    revision: int = 0
-
-
-@dataclass(eq=False)
-class Document:
-    """A text that is open.
-
-    Attributes
-    ----------
-    name : the path of its file, or its URI where it has none.
-    lines : see `texts.lines_of`.
-    found : set when it is known which library it has.
-    analysis : the last that was finished; of the present text once `ready` is done. revision : its number.
-    begun : whether a first is under way. stale : whether the next has to be made afresh.
-    """
-
-    uri: str
-    name: str
-    path: Path | None
-    version: int
-    lines: list[str]
-    ready: asyncio.Future[Analysis]
-    found: asyncio.Event = field(default_factory=asyncio.Event)
-    shelved: Shelved | None = None
-    analysis: Analysis | None = None
-    revision: int = 0
-    begun: bool = False
-    stale: bool = False
-    kept: dict[str, Any] = field(default_factory=dict)
-    task: asyncio.Task[None] | None = None
-    finding: asyncio.Task[None] | None = None
-    ahead: asyncio.Task[None] | None = None
-
-    @property
-    def source(self) -> Source:
-        """Return its text as it is now."""
-        return Source("".join(self.lines), self.name)
-
-
-def path_of(uri: str) -> Path | None:
-    """Return the path that a URI stands for; None if it is no file's, or no file could have it."""
-    path = to_fs_path(uri) if uri.startswith("file:") else None
-    return None if path is None or "\0" in path else Path(path)
-
-
 class Documents:
     """All texts that are open in one client."""
 
@@ -112,6 +41,7 @@ class Documents:
         told: Callable[[Snapshot], Awaitable[None]],
         get_ready: Callable[[], None],
         get_ahead: Callable[[Snapshot], None],
+        is_whole: Callable[[], None],
     ) -> None:
         """Take what is to be asked.
 
@@ -120,12 +50,14 @@ class Documents:
         files : says where a text finds the files that it uses; takes also what has the texts of files that are open.
         told : is called with each text that is analysed. get_ready : is called once, before the first.
         get_ahead : is called with a text that has been opened, beside all else.
+        is_whole : is called when all of a text is known of which a beginning was told before.
         """
         self.client = Client()
         self._files = files
         self._told = told
         self._get_ready = get_ready
         self._get_ahead = get_ahead
+        self._is_whole = is_whole
         self._open: dict[str, Document] = {}
         self._revisions = count(1)
         self._warming: asyncio.Task[None] | None = None
@@ -149,7 +81,7 @@ class Documents:
         self.close(item.uri)
         path = path_of(item.uri)
         name = item.uri if path is None else str(path)
-        document = Document(item.uri, name, path, item.version, lines_of(item.text), _future())
+        document = Document(item.uri, name, path, item.version, lines_of(item.text))
         self._open[item.uri] = document
         self.analyse(document)
         return document
@@ -167,7 +99,7 @@ class Documents:
                 edited(document.lines, start, end, change.text, self.client.encoding)
             else:
                 document.lines = lines_of(change.text)
-        _supersede(document)
+        document.supersede()
         self.analyse(document)
         return document
 
@@ -176,7 +108,7 @@ class Documents:
         document = self._open.pop(uri, None)
         if document is not None:
             unsettle()
-            _supersede(document)
+            document.supersede()
             for task in (document.task, document.finding, document.ahead):
                 if task is not None:
                     task.cancel()
@@ -195,8 +127,12 @@ class Documents:
             self._warming = asyncio.ensure_future(off_loop(self._get_ready, is_whole=True))
         await asyncio.shield(self._warming)
 
-    async def snapshot(self, uri: str) -> Snapshot:
+    async def snapshot(self, uri: str, line: int | None = None) -> Snapshot:
         """Return an open text with its analysis, once there is one.
+
+        Parameters
+        ----------
+        line : where a beginning of the text will do, a line that it has.
 
         Raises
         ------
@@ -206,11 +142,19 @@ class Documents:
         document = self._open.get(uri)
         if document is None:
             raise Superseded(f"{uri} is not open")
+        ready = document.ready
+        while line is not None and not ready.done():
+            if document.beginning is not None and line < document.beginning.n_lines:
+                return document.beginning.snapshot
+            await asyncio.wait((ready, document.longer), return_when=asyncio.FIRST_COMPLETED)
         version = document.version
-        analysis = await asyncio.shield(document.ready)
+        analysis = await asyncio.shield(ready)
+        return self._snapshot(document, version, analysis)
+
+    def _snapshot(self, document: Document, version: int, analysis: Analysis) -> Snapshot:
         others = [one for one in self.all() if one is not document]
         return Snapshot(
-            uri,
+            document.uri,
             version,
             analysis,
             _against(analysis, document.shelved),
@@ -230,8 +174,7 @@ class Documents:
         """
         if document.task is not None:
             document.task.cancel()
-        if document.ready.done():
-            document.ready = _future()
+        document.await_another()
         document.stale |= afresh
         document.task = asyncio.ensure_future(self._analyse(document))
 
@@ -250,48 +193,77 @@ class Documents:
                 await document.found.wait()
         document.begun = True
         try:
-            analysis = await off_loop(self._work(document))
+            analysis = await self._read(document)
         except Exception as error:
             ready.set_exception(error)
             raise
-        if document.analysis is not None and document.analysis.question.catalog is not analysis.question.catalog:
-            document.analysis = None
-            clear_out()
-        document.analysis, document.stale, document.revision = analysis, False, next(self._revisions)
+        is_longer, document.beginning = document.beginning is not None, None
+        document.revision = next(self._revisions)
         ready.set_result(analysis)
-        if analysis.made.serial == 0:  # made afresh, so that nearly all of it will stay
-            settle()
         snapshot = await self.snapshot(document.uri)
         if document.ahead is None:
             document.ahead = asyncio.ensure_future(self._look_ahead(snapshot))
         await self._told(snapshot)
+        if is_longer:
+            self._is_whole()
         await off_loop(lambda: analysis.ready)
+
+    async def _read(self, document: Document) -> Analysis:
+        """Return the analysis of a text; of a long one that is new, after ever longer beginnings of it."""
+        from mlmg_lang.beginnings import closed, longer, n_defining
+
+        lines, n_read = document.lines, document.n_read
+        if document.stale or document.analysis is None:
+            n_lines = longer(lines, 0)
+        else:
+            n_lines = len(lines) if n_read is None else closed(lines, min(n_read, len(lines)), n_read)
+        n_needed = 0 if n_lines == len(lines) else await off_loop(lambda: n_defining(lines))
+        while n_lines < len(lines):
+            analysis = await off_loop(self._work(document, n_lines))
+            self._take(document, analysis, n_lines)
+            if not document.revision and n_needed <= n_lines:
+                await self._tell_beginning(document, analysis, n_lines)
+            n_lines = longer(lines, n_lines)
+        analysis = await off_loop(self._work(document, n_lines))
+        self._take(document, analysis, None)
+        return analysis
+
+    def _take(self, document: Document, analysis: Analysis, n_read: int | None) -> None:
+        """Keep an analysis in the place of the one before; `n_read`: see `Document`."""
+        if document.analysis is not None and document.analysis.question.catalog is not analysis.question.catalog:
+            document.analysis = None
+            clear_out()
+        is_grown = n_read is not None or document.n_read is not None
+        document.analysis, document.stale, document.n_read = analysis, False, n_read
+        if is_grown or analysis.made.serial == 0:  # made afresh, so that nearly all of it will stay
+            settle()
+
+    async def _tell_beginning(self, document: Document, analysis: Analysis, n_lines: int) -> None:
+        """Let there be answers of the first lines of a text, and tell what is wrong with them."""
+        from mlmg_lang.beginnings import sure
+
+        snapshot = replace(self._snapshot(document, document.version, sure(analysis)), kept={})
+        document.take_beginning(Beginning(snapshot, n_lines))
+        await self._told(snapshot)
 
     async def _look_ahead(self, snapshot: Snapshot) -> None:
         """Find out what takes long the first time; later edits leave nearly all of it as it is."""
 
-        def work() -> None:
-            with undisturbed():
-                self._get_ahead(snapshot)
-
-        await off_loop(work)
+        await off_loop(undisturbed()(partial(self._get_ahead, snapshot)))
         settle()
 
-    def _work(self, document: Document) -> Callable[[], Analysis]:
-        """Return what is to be done, with all that it needs at hand: what it would ask may change meanwhile."""
+    def _work(self, document: Document, n_lines: int) -> Callable[[], Analysis]:
+        """Return what is to be done of some lines, with all that it needs: what it would ask may change meanwhile."""
         from mlmg_lang.front_end import Question, analyse_again, analyse_for
 
-        source, shelved, before = document.source, document.shelved, document.analysis
+        source = Source("".join(document.lines[:n_lines]), document.name)
+        shelved, before = document.shelved, document.analysis
         catalog, names = (None, None) if shelved is None else (shelved.library, shelved.names)
-        if not document.stale and before is not None and before.question.catalog is catalog:
-            return partial(analyse_again, before, source)
-        question = Question(catalog, names, None, self._files(document, self.text_of))
-
-        def afresh() -> Analysis:
-            with undisturbed():
-                return analyse_for(source, question)
-
-        return afresh
+        if document.stale or before is None or before.question.catalog is not catalog:
+            question = Question(catalog, names, None, self._files(document, self.text_of))
+            return undisturbed()(partial(analyse_for, source, question))
+        again = partial(analyse_again, before, source)
+        return again if document.n_read is None else undisturbed()(again)
 
     def users(self, path: Path) -> Iterator[Document]:
         """Yield the open texts that use a file."""
@@ -313,19 +285,6 @@ class Documents:
 def _against(analysis: Analysis, shelved: Shelved | None) -> Shelved | None:
     """Return the library of a text if it is the one that an analysis is against."""
     return shelved if shelved is not None and shelved.library is analysis.question.catalog else None
-
-
-def _supersede(document: Document) -> None:
-    """Tell those who wait that what they have asked of a text is not to be had any more."""
-    if not document.ready.done():
-        document.ready.set_exception(Superseded(f"{document.uri} has changed"))
-
-
-def _future() -> asyncio.Future[Analysis]:
-    """Return a future that nobody needs to wait for."""
-    future: asyncio.Future[Analysis] = asyncio.get_running_loop().create_future()
-    future.add_done_callback(lambda done: None if done.cancelled() else done.exception() and None)
-    return future
 
 
 @dataclass(frozen=True, slots=True)

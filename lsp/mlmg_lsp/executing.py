@@ -14,8 +14,9 @@ from pygls.exceptions import JsonRpcException, JsonRpcInvalidParams
 from pygls.lsp.server import LanguageServer
 
 from mlmg_lsp.asked import Asked, Refused, asked_from
-from mlmg_lsp.documents import Documents, Snapshot, path_of
+from mlmg_lsp.documents import Documents
 from mlmg_lsp.features import COMMANDS, answer_named
+from mlmg_lsp.open_text import Snapshot, path_of
 from mlmg_lsp.pages import Pages
 from mlmg_lsp.progress import Bar
 from mlmg_lsp.work import off_loop

@@ -10,9 +10,10 @@ from pygls.lsp.server import LanguageServer
 
 from mlmg_lang.libraries import SETTINGS
 from mlmg_lsp.background import Background
-from mlmg_lsp.documents import Document, Documents
+from mlmg_lsp.documents import Documents
 from mlmg_lsp.libraries import Shelved
 from mlmg_lsp.offering import offer_demo
+from mlmg_lsp.open_text import Document
 from mlmg_lsp.progress import Bar
 from mlmg_lsp.workspace import Workspace
 from mlmg_runtime.errors import MlmgError

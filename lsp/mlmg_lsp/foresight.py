@@ -15,8 +15,8 @@ if TYPE_CHECKING:
     from mlmg_lang.explaining.travel import MotionTravel
     from mlmg_lang.ide.foreseen import Foreseen, Remembered
     from mlmg_lang.ide.hints import Outlook
-    from mlmg_lsp.documents import Snapshot
     from mlmg_lsp.libraries import Shelved
+    from mlmg_lsp.open_text import Snapshot
 
 _GRACE_S: Final = 0.1
 """So long it is waited for; what takes longer, the client is told of when it is there."""

@@ -11,7 +11,7 @@ from lsprotocol import types
 from pygls.exceptions import JsonRpcContentModified
 from pygls.lsp.server import LanguageServer
 
-from mlmg_lsp.features import FEATURES, INLAY_HINT, RESOLVING, WORKSPACE_SYMBOL, answer_named
+from mlmg_lsp.features import FEATURES, INLAY_HINT, OF_A_PLACE, RESOLVING, WORKSPACE_SYMBOL, answer_named
 from mlmg_lsp.session import ClientSession
 from mlmg_lsp.work import off_loop
 
@@ -43,7 +43,8 @@ def _of_text(session: ClientSession, name: str) -> Callable[[Any], Any]:
     """Return what answers a request about a text, off the thread that reads messages."""
 
     async def handler(params: Any) -> Any:
-        snapshot = await session.snapshot(params.text_document.uri)
+        line = _last_line(params) if name in OF_A_PLACE else None
+        snapshot = await session.snapshot(params.text_document.uri, line)
         return await off_loop(lambda: answer_named(name)(snapshot, params))
 
     return handler
@@ -85,3 +86,10 @@ def _of_item(session: ClientSession, name: str) -> Callable[[Any], Any]:
         return await off_loop(lambda: answer_named(name)(snapshot, item))
 
     return handler
+
+
+def _last_line(params: Any) -> int:
+    """Return the last line that a request is about; the first if it names none."""
+    positions = [getattr(params, "position", None), getattr(getattr(params, "range", None), "end", None)]
+    positions += getattr(params, "positions", ())
+    return max((one.line for one in positions if one is not None), default=0)

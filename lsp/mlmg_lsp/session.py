@@ -14,12 +14,13 @@ from pygls.lsp.server import LanguageServer
 from mlmg_lsp.asking import Asker
 from mlmg_lsp.background import Background
 from mlmg_lsp.client import client_from
-from mlmg_lsp.documents import Document, Documents, Snapshot, Superseded, path_of
+from mlmg_lsp.documents import Documents
 from mlmg_lsp.executing import Executor
 from mlmg_lsp.features import HINTS_AHEAD, answer_named, get_ahead, warm
 from mlmg_lsp.finding import LibraryFinder
 from mlmg_lsp.foresight import Foresight
 from mlmg_lsp.libraries import Shelf, Shelved
+from mlmg_lsp.open_text import Document, Snapshot, Superseded, path_of
 from mlmg_lsp.telling import Telling
 from mlmg_lsp.workspace import Settings, Workspace, folders_of
 
@@ -41,7 +42,7 @@ class ClientSession:
         self.background = Background()
         self.workspace = Workspace(settings, shelf)
         self._telling = Telling(server)
-        self.documents = Documents(self.workspace.files, self._telling.tell, warm, get_ahead)
+        self.documents = Documents(self.workspace.files, self._telling.tell, warm, get_ahead, self._is_whole)
         self._asker = Asker(server, self.documents, self.background)
         self._finder = LibraryFinder(server, self.workspace, self.documents, self.background, self._take_library)
         self.foresight = Foresight(self._get_hints, partial(self._asker.refresh, "inlay_hint"), self._tell_not_foreseen)
@@ -71,8 +72,12 @@ class ClientSession:
 
     # --- texts ---
 
-    async def snapshot(self, uri: str) -> Snapshot:
+    async def snapshot(self, uri: str, line: int | None = None) -> Snapshot:
         """Return an open text with all that is known of it.
+
+        Parameters
+        ----------
+        line : where a beginning of the text will do, a line that it has.
 
         Raises
         ------
@@ -80,7 +85,7 @@ class ClientSession:
             If the text is edited before that is known, or is not open.
         """
         try:
-            return await self.documents.snapshot(uri)
+            return await self.documents.snapshot(uri, line)
         except Superseded as error:
             raise JsonRpcContentModified(str(error)) from None
 
@@ -156,6 +161,11 @@ class ClientSession:
             for document in self.documents.all():
                 self.documents.reconsider(document)
             self._asker.refresh()
+
+    def _is_whole(self) -> None:
+        """Let those ask again who have been told what is wrong with a beginning."""
+        if self.documents.client.pulls:
+            self._asker.refresh("diagnostics")
 
     def _take_library(self, document: Document, shelved: Shelved | None) -> None:
         """Look again at a text that has another library than before."""

@@ -10,7 +10,7 @@ from typing import Any
 from lsprotocol import types
 from pygls.lsp.server import LanguageServer
 
-from mlmg_lsp.documents import Snapshot
+from mlmg_lsp.open_text import Snapshot
 from mlmg_lsp.work import off_loop
 
 

@@ -15,7 +15,7 @@ from mlmg_lang.front_end import analyse, analyse_again
 from mlmg_lang.source import Source
 from mlmg_lsp.client import Client
 from mlmg_lsp.convert import diagnostics_of
-from mlmg_lsp.documents import Snapshot
+from mlmg_lsp.open_text import Snapshot
 from mlmg_lsp.features import answer_named, get_ahead, warm
 from mlmg_runtime.library_names import open_names
 

@@ -81,6 +81,12 @@ FEATURES: Final[tuple[tuple[str, Any, str], ...]] = (
 )
 """By method: what the client is told of it, and what answers a request about a text."""
 
+OF_A_PLACE: Final = frozenset({
+    *("diagnostic.diagnostic", "completion.completion", "code_action.code_action", "navigation.hover"),
+    *("navigation.definition", "navigation.signature_help", "structure.selection_range", "semantic_tokens.within"),
+})  # fmt: skip
+"""What is answered by what stands before and at a place; of diagnostics, as many as there are."""
+
 COMMANDS: Final[Mapping[str, str]] = {
     "mlmg.play": "execute_command.play",
     "mlmg.explain": "execute_command.explain",

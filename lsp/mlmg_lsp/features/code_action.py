@@ -14,7 +14,7 @@ from mlmg_lang.front_end import analyse_again
 from mlmg_lang.ide import actions
 from mlmg_lang.source import Source, Span
 from mlmg_lsp.convert import diagnostic_of, edits_between, range_of, span_of, workspace_edit
-from mlmg_lsp.documents import Snapshot
+from mlmg_lsp.open_text import Snapshot
 
 QUICK_FIX: Final = types.CodeActionKind.QuickFix
 FIX_ALL: Final = types.CodeActionKind.SourceFixAll

@@ -15,7 +15,7 @@ from lsprotocol import types
 from mlmg_lang.blocks import Statement
 from mlmg_lang.ide import lenses
 from mlmg_lang.source import Source
-from mlmg_lsp.documents import Snapshot
+from mlmg_lsp.open_text import Snapshot
 from mlmg_lsp.positions import position_from_offset
 from mlmg_lsp.written import NO_ANSWER, Json, Lined, Written, joined, lined, written
 

@@ -15,8 +15,8 @@ from mlmg_lang.ide.offers import Completion, Offers, What
 from mlmg_lang.planning import flow
 from mlmg_lang.planning.names import Names
 from mlmg_lsp.convert import markup, offset_of
-from mlmg_lsp.documents import Snapshot
 from mlmg_lsp.nothing import NoFits, Nothing
+from mlmg_lsp.open_text import Snapshot
 from mlmg_lsp.positions import EditorPosition, range_from_span
 from mlmg_lsp.written import Json, Written, written
 

@@ -19,7 +19,7 @@ from mlmg_lang.planning.resolved import ResolvedPlan
 from mlmg_lang.rules import read_rule
 from mlmg_lsp.asked import Asked, Refused
 from mlmg_lsp.convert import offset_of
-from mlmg_lsp.documents import Snapshot
+from mlmg_lsp.open_text import Snapshot
 from mlmg_runtime import bvh
 from mlmg_runtime.errors import MlmgError
 from mlmg_runtime.files import check_output

@@ -11,7 +11,7 @@ from mlmg_lang.formatting.by_pieces import Forms, forms_of
 from mlmg_lang.formatting.format_script import format_source
 from mlmg_lang.source import Source, Span
 from mlmg_lsp.convert import changed_lines, range_of
-from mlmg_lsp.documents import Snapshot
+from mlmg_lsp.open_text import Snapshot
 
 
 def get_ahead(snapshot: Snapshot) -> None:

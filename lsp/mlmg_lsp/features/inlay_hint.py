@@ -15,7 +15,7 @@ from mlmg_lang.ide.hints import Going, Hint, Kind, Meanings, Outlook, goings, ha
 from mlmg_lang.ide.touching import pieces_touching
 from mlmg_lang.source import Source, Span
 from mlmg_lsp.convert import span_of
-from mlmg_lsp.documents import Snapshot
+from mlmg_lsp.open_text import Snapshot
 from mlmg_lsp.positions import Encoding, position_from_offset
 from mlmg_lsp.written import Json, Lined, Written, joined, lined
 

@@ -19,8 +19,8 @@ from mlmg_lsp.convert import (
     range_of,
     workspace_edits,
 )
-from mlmg_lsp.documents import Snapshot
 from mlmg_lsp.library_facts import LibraryFacts, configuration_of
+from mlmg_lsp.open_text import Snapshot
 
 
 def hover(snapshot: Snapshot, params: types.HoverParams) -> types.Hover | None:

@@ -13,7 +13,7 @@ from lsprotocol import types
 from mlmg_lang.blocks import Statement
 from mlmg_lang.ide import symbols
 from mlmg_lang.source import Source, Span
-from mlmg_lsp.documents import Snapshot
+from mlmg_lsp.open_text import Snapshot
 from mlmg_lsp.positions import Encoding, range_from_span
 from mlmg_lsp.written import Json, Lined, Written, joined, lined
 

@@ -9,7 +9,7 @@ from lsprotocol import types
 from mlmg_lang.ide import folding, selection
 from mlmg_lang.source import Span
 from mlmg_lsp.convert import offset_of, range_of
-from mlmg_lsp.documents import Snapshot
+from mlmg_lsp.open_text import Snapshot
 from mlmg_lsp.positions import position_from_offset
 
 

@@ -11,8 +11,8 @@ from mlmg_lang.ide.occurrences import Place
 from mlmg_lang.ide.symbols import Found, LibraryName, workspace_symbols
 from mlmg_lang.source import Source
 from mlmg_lsp.convert import range_of, source_of, uri_of
-from mlmg_lsp.documents import Snapshot
 from mlmg_lsp.library_facts import LibraryFacts, configuration_of
+from mlmg_lsp.open_text import Snapshot
 from mlmg_runtime.library import Library
 
 _MOST: Final = 100

@@ -12,7 +12,7 @@ from mlmg_lang.front_end import analyse, analyse_again
 from mlmg_lang.planning.names import Names
 from mlmg_lang.source import Source
 from mlmg_lsp.client import Client
-from mlmg_lsp.documents import Snapshot
+from mlmg_lsp.open_text import Snapshot
 from mlmg_lsp.positions import Encoding
 from mlmg_runtime.library import Library
 
@@ -46,7 +46,7 @@ def snapshots(demo_library: Library) -> Callable[[Encoding, int], Iterator[Snaps
         draw, text = random.Random(encoding), BEGINNING
         analysis, kept = analyse(Source(text), demo_library), dict[str, Any]()
         for version in range(n_edits):
-            yield Snapshot("untitled:x", version, analysis, None, Client(encoding), {}, (), kept)
+            yield Snapshot("untitled:x", version, analysis, None, Client(encoding), {}, (), kept, version + 1)
             text = edited(draw, text)
             analysis = analyse_again(analysis, Source(text))
 

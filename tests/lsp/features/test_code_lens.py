@@ -11,8 +11,8 @@ from mlmg_lang.front_end import analyse, analyse_again
 from mlmg_lang.ide.lenses import lenses
 from mlmg_lang.source import Source
 from mlmg_lsp.client import Client
-from mlmg_lsp.documents import Snapshot
 from mlmg_lsp.features.code_lens import code_lens
+from mlmg_lsp.open_text import Snapshot
 
 PARAMS = types.CodeLensParams(types.TextDocumentIdentifier("untitled:x"))
 TEXT = "let x = WALK\r\n# 😀\nIDLE; x\r\n\nWALK for 2 sec\nrepeat 2 {\n\tTALK\n\n  x; IDLE\n}\nWALK # 😀\n"

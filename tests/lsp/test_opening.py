@@ -1,0 +1,135 @@
+"""Of a long text there are answers before all of it has been read, and none that is taken back later."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from typing import Any
+
+import pytest
+
+URI = "untitled:long"
+HERE = {"textDocument": {"uri": URI}}
+PUSHED = {"textDocument": {"publishDiagnostics": {}}}
+PULLED = {
+    "textDocument": {"diagnostic": {"dynamicRegistration": False}},
+    "workspace": {"diagnostics": {"refreshSupport": True}},
+}
+LINES = (
+    "WALK with Upper-Body TALK for 3 sec\n",
+    "IDLE for 2 sec\n",
+    "WLAK for 3 sec\n",
+    "(WALK or\n    IDLE) for 1 sec\n",
+)
+LONG = "".join(LINES) * 600
+
+
+def place(line: int) -> dict[str, Any]:
+    return {**HERE, "position": {"line": line, "character": 2}}
+
+
+def told_until(client, number: int) -> list[list[Any]]:
+    """Return what has been told of the text, up to the answer to a request."""
+    found = []
+    while True:
+        message = client.wait(lambda one: "method" not in one or one["method"] == "textDocument/publishDiagnostics")
+        if message.get("id") == number:
+            return found
+        if message.get("method") is not None and message["params"]["uri"] == URI:
+            found.append(message["params"]["diagnostics"])
+
+
+def what(diagnostics: list[Any]) -> list[tuple[Any, ...]]:
+    return [(one["code"], one["range"]["start"]["line"], one["message"]) for one in diagnostics]
+
+
+@pytest.fixture(scope="module")
+def pushed(start_for_all):
+    """Return a client that is told of mistakes, of a server that is ready."""
+    client = start_for_all()
+    client.initialize(PUSHED)
+    client.open("untitled:first", "WALK\n")
+    client.diagnostics("untitled:first")
+    return client
+
+
+@pytest.fixture
+def client(pushed):
+    yield pushed
+    pushed.close_text(URI)
+
+
+def test_mistakes_are_told_ever_further_and_none_is_taken_back(client):
+    client.open(URI, LONG)
+    told = told_until(client, client.begin("textDocument/documentSymbol", HERE))
+    told.append(client.diagnostics(URI) if not told or len(told[-1]) < 200 else told[-1])
+    assert len(told) > 2
+    assert 0 < len(told[0]) < 100
+    for before, after in pairwise(told):
+        assert what(before) == what(after)[: len(before)]
+
+
+def test_what_is_asked_of_the_first_lines_is_answered_before_what_is_asked_of_all(client):
+    client.open(URI, LONG)
+    order = [
+        client.begin("textDocument/documentSymbol", HERE),
+        client.begin("textDocument/hover", place(2900)),
+        client.begin("textDocument/hover", place(1)),
+        client.begin("textDocument/completion", place(5)),
+        client.begin("textDocument/selectionRange", {**HERE, "positions": [{"line": 4, "character": 1}]}),
+    ]
+    answered = [client.wait(lambda one: one.get("id") in order) for _ in order]
+    assert all(one["result"] for one in answered)
+    assert {one["id"] for one in answered[:3]} == set(order[2:])
+
+
+@pytest.mark.parametrize("last", ["let wlak = WALK\n", "let WLAK = WALK\n"])
+def test_of_a_text_that_may_define_at_its_end_what_it_uses_nothing_is_told_before(client, last):
+    client.open(URI, LONG + last)
+    told = told_until(client, client.begin("textDocument/documentSymbol", HERE)) or [client.diagnostics(URI)]
+    assert len(told) == 1
+
+
+def test_after_edits_while_it_is_read_all_is_known_as_if_there_had_been_none(client):
+    lines = LONG.splitlines(keepends=True)
+    client.open(URI, LONG)
+    client.diagnostics(URI, 1)
+    for version, (line, new) in enumerate([(0, "WALK for\n"), (2000, "WLAK\n"), (3, ""), (10, "IDLE\n" * 400)], 2):
+        ends = ({"line": line, "character": 0}, {"line": line + 1, "character": 0})
+        client.edit(URI, version, {"range": dict(zip(("start", "end"), ends, strict=True)), "text": new})
+        lines[line : line + 1] = new.splitlines(keepends=True)
+        if version % 2:
+            client.diagnostics(URI, version)
+    symbols = client.ask("textDocument/documentSymbol", HERE)
+    tokens = client.ask("textDocument/semanticTokens/full", HERE)
+    client.forget()
+    client.edit(
+        URI, 6, {"range": {"start": {"line": 0, "character": 0}, "end": {"line": 0, "character": 0}}, "text": ""}
+    )
+    told = client.diagnostics(URI, 6)
+    client.close_text(URI)
+    client.open(URI, "".join(lines))
+    assert client.ask("textDocument/documentSymbol", HERE) == symbols
+    assert client.ask("textDocument/semanticTokens/full", HERE)["data"] == tokens["data"]
+    client.forget()
+    client.edit(
+        URI, 2, {"range": {"start": {"line": 0, "character": 0}, "end": {"line": 0, "character": 0}}, "text": ""}
+    )
+    assert client.diagnostics(URI, 2) == told
+
+
+def test_a_client_that_asks_is_answered_early_and_told_to_ask_again(start):
+    client = start()
+    client.initialize(PULLED)
+    client.open("untitled:first", "WALK\n")
+    client.ask("textDocument/diagnostic", {"textDocument": {"uri": "untitled:first"}})
+    client.open(URI, LONG)
+    first = client.ask("textDocument/diagnostic", HERE)
+    assert 0 < len(first["items"]) < 100
+    assert "resultId" not in first
+    client.ask("textDocument/documentSymbol", HERE)
+    client.wait_for("workspace/diagnostic/refresh")
+    again = client.ask("textDocument/diagnostic", HERE)
+    assert what(first["items"]) == what(again["items"])[: len(first["items"])]
+    assert len(again["items"]) > 200
+    assert again["resultId"]
+    assert client.leave() == 0
