@@ -243,8 +243,9 @@ ASKED: Final = (
     Asking("formatting as one types", "onTypeFormatting", lambda at: {"position": at, "ch": "\n", **FORMAT}),
     Asking("pulled diagnostics", "diagnostic", nothing),
 )
-OPENING: Final = "opening, up to the diagnostics"
-OF_MISTAKES: Final = (OPENING, "diagnostics after an edit", "hover", "pulled diagnostics")
+OPENING: Final = ("opening, up to the first diagnostics", "hover while it is read", "an edit while it is read")
+ALL_READ: Final = "opening, up to the outline"
+OF_MISTAKES: Final = (*OPENING, ALL_READ, "diagnostics after an edit", "hover", "pulled diagnostics")
 """What is asked of a script with mistakes."""
 
 
@@ -260,9 +261,9 @@ def starts(library: Path) -> Iterator[Times]:
 
 def measured(client: Client, text: str, asked: Collection[str]) -> Iterator[Timed]:
     """Yield how long things take in a script, by their labels."""
-    yield OPENING, [client.timed(lambda: client.open(text))]
     draw, lines = random.Random(5), text.splitlines()
     edited = [at for at, line in enumerate(lines) if ANY.match(line) and not COMMON.match(line)]
+    yield from opening(client, text, edited[:50])
     change(client, draw, edited)
     if "diagnostics after an edit" in asked:
         yield (
@@ -276,6 +277,21 @@ def measured(client: Client, text: str, asked: Collection[str]) -> Iterator[Time
     if "completion at each key" in asked:
         yield "completion at each key", list(keys(client, len(lines) // 2))
     client.close()
+
+
+def opening(client: Client, text: str, first: Sequence[int]) -> Iterator[Timed]:
+    """Open a script, and yield how long that takes, and what is asked of some of its first lines meanwhile."""
+    document = {"textDocument": {"uri": URI}}
+    place = {**document, "position": {"line": first[0], "character": 2}}
+    works = (
+        lambda: client.open(text),
+        lambda: client.ask("textDocument/hover", place),
+        lambda: change(client, random.Random(3), first),
+        lambda: client.ask("textDocument/documentSymbol", document),
+    )
+    times = [client.timed(work) for work in works]
+    yield from ((label, [one]) for label, one in zip(OPENING, times, strict=False))
+    yield ALL_READ, [(sum(waited for waited, _ in times), sum(computed for _, computed in times))]
 
 
 def change(client: Client, draw: random.Random, lines: Sequence[int]) -> None:
@@ -317,7 +333,13 @@ LONGEST_S: Final = 0.2
 
 def main() -> int:
     words = " ".join(sys.argv[1:])
-    labels = [OPENING, *(asking.label for asking in ASKED), "diagnostics after an edit", "completion at each key"]
+    labels = [
+        *OPENING,
+        ALL_READ,
+        *(asking.label for asking in ASKED),
+        "diagnostics after an edit",
+        "completion at each key",
+    ]
     missed = 0
     with tempfile.TemporaryDirectory() as folder:
         library = Path(folder, "large.mlmg")
