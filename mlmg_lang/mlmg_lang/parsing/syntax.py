@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import TypeAlias
+from typing import Final, TypeAlias
 
 from mlmg_lang.source import Span
 
@@ -267,8 +267,14 @@ class Script(Node):
     span: Span
 
 
+_LEAVES: Final = frozenset({Name, Quantity, Weight, RepeatHead, ChooseHead, Broken, BrokenDefinition})
+"""What no other node is part of."""
+
+
 def children(node: Node) -> Iterator[Node]:
     """Yield the nodes that a node is made of, in the order of the text."""
+    if type(node) in _LEAVES:
+        return
     fields: tuple[str, ...] = node.__slots__
     for field in fields:
         value = getattr(node, field)
@@ -283,4 +289,5 @@ def walk(node: Node) -> Iterator[Node]:
     while waiting:
         node = waiting.pop()
         yield node
-        waiting.extend(reversed(tuple(children(node))))
+        if type(node) not in _LEAVES:
+            waiting.extend(reversed(tuple(children(node))))

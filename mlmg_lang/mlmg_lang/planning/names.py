@@ -55,6 +55,7 @@ class _Graph:
 
     motions: tuple[str, ...]
     motion_set: frozenset[str]
+    order: Mapping[str, int]
     entries: tuple[Entry, ...]
     spellings: tuple[str, ...]
     tags: tuple[str, ...]
@@ -70,6 +71,9 @@ class Names:
         self.graphs = tuple(catalog.graphs)
         self.root = self.graphs[0]
         self._parent = {graph: catalog.parent(graph) for graph in self.graphs}
+        self._children = {graph: self._right_below(graph) for graph in self.graphs}
+        self._ancestors = {graph: tuple(self._upwards(graph)) for graph in self.graphs}
+        self._levels = (self.root, *self.below((self.root,)))
         self._order = {graph: at for at, graph in enumerate(self.graphs)}
         self._names = {graph: _index(catalog, graph) for graph in self.graphs}
         self._graphs_exact = {normal(graph): graph for graph in self.graphs}
@@ -85,18 +89,22 @@ class Names:
         """Return the graph above, or None for the root."""
         return self._parent[graph]
 
+    def _right_below(self, graph: str) -> tuple[str, ...]:
+        return tuple(child for child in self.graphs if self._parent[child] == graph)
+
     def children(self, graph: str) -> tuple[str, ...]:
         """Return the graphs right below one, in configuration order."""
-        return tuple(child for child in self.graphs if self._parent[child] == graph)
+        return self._children[graph]
+
+    def _upwards(self, graph: str) -> Iterator[str]:
+        above = self._parent[graph]
+        while above is not None:
+            yield above
+            above = self._parent[above]
 
     def ancestors(self, graph: str) -> tuple[str, ...]:
         """Return the graphs above one, nearest first."""
-        found = []
-        above = self._parent[graph]
-        while above is not None:
-            found.append(above)
-            above = self._parent[above]
-        return tuple(found)
+        return self._ancestors[graph]
 
     def below(self, tops: Iterable[str]) -> tuple[str, ...]:
         """Return the graphs below some, nearest first, those of a level in configuration order."""
@@ -110,7 +118,7 @@ class Names:
 
     def all_levels(self) -> tuple[str, ...]:
         """Return all graphs, the root first, then level by level."""
-        return (self.root, *self.below((self.root,)))
+        return self._levels
 
     def height(self, graph: str) -> tuple[int, int]:
         """Return what sorts graphs from the highest to the lowest, ties in configuration order."""
@@ -125,6 +133,11 @@ class Names:
     def motion_set(self, graph: str) -> frozenset[str]:
         """Return the motions on a graph, to ask whether one is among them."""
         return self._names[graph].motion_set
+
+    def in_order(self, graph: str, motions: Iterable[str]) -> tuple[str, ...]:
+        """Return those of some motions that are on a graph, in configuration order."""
+        order = self._names[graph].order
+        return tuple(sorted(order.keys() & motions, key=order.__getitem__))
 
     def graph(self, written: str) -> str | None:
         """Return the graph that a written name means, or None."""
@@ -235,4 +248,5 @@ def _index(catalog: Catalog, graph: str) -> _Graph:
     listed = tuple(sorted(exact.values(), key=lambda entry: entry.kind is Kind.MOTION))
     spellings = tuple(entry.name for entry in listed)
     tags = tuple(entry.name for entry in exact.values() if entry.kind is Kind.TAG)
-    return _Graph(motions, frozenset(motions), listed, spellings, tags, exact, inexact)
+    order = {motion: at for at, motion in enumerate(motions)}
+    return _Graph(motions, frozenset(motions), order, listed, spellings, tags, exact, inexact)

@@ -268,7 +268,7 @@ class _Resolver:
         """Return what stops a command if the earlier ones cannot be narrowed for it."""
         layer = next(layer for layer in way.layers if layer.graph == narrow.graph)
         setter = min(narrow.without)
-        motions = tuple(motion for motion in self.names.motions(setter[1]) if motion in narrow.without[setter])
+        motions = self.names.in_order(setter[1], narrow.without[setter])
         by_rule_1 = not any(motion in self.names.motion_set(narrow.graph) for motion in motions)
         return Stopped(narrow.graph, layer.span, layer.motions, setter[1], motions, by_rule_1, setter, within=False)
 

@@ -41,7 +41,7 @@ def _above(layer: Layer, command: Command, resolution: Resolution, names: Names)
     else:
         state = resolution.states[command.span]
         motions = next(state.parts[graph].motions for graph in higher if graph in state.parts)
-    return tuple(motion for motion in names.motions(layer.graph) if motion in motions)
+    return names.in_order(layer.graph, motions)
 
 
 def _warning(layer: Layer, above: tuple[str, ...], distance: float, names: Names, catalog: Catalog) -> Diagnostic:

@@ -29,15 +29,15 @@ def motions_on(graph: str, motion: syntax.Motion, names: Names, fixed: bool) -> 
         case syntax.And():
             operands = tuple(motions_on(graph, operand, names, fixed) for operand in flattened(motion))
             kept = set.intersection(*(set(operand.motions) for operand in operands))
-            return Both(graph, _ordered(graph, kept, names), operands, motion.span)
+            return Both(graph, names.in_order(graph, kept), operands, motion.span)
         case syntax.Or(parts):
             operands = tuple(motions_on(graph, operand, names, fixed) for operand in parts)
             kept = set().union(*(operand.motions for operand in operands))
-            return Either(graph, _ordered(graph, kept, names), operands, motion.span)
+            return Either(graph, names.in_order(graph, kept), operands, motion.span)
         case syntax.Not(part):
             operand = motions_on(graph, part, names, fixed)
             kept = set(names.motions(graph)) - set(operand.motions)
-            return AllBut(graph, _ordered(graph, kept, names), operand, motion.span)
+            return AllBut(graph, names.in_order(graph, kept), operand, motion.span)
         case syntax.With():
             raise AssertionError("structure lets no layers into a set")
 
@@ -59,7 +59,3 @@ def _named(graph: str, name: syntax.Name, names: Names, fixed: bool) -> Named:
         return Named(graph, (), name.text, Kind.TAG, name.text, name.span)
     entry = match.entry
     return Named(graph, entry.motions, entry.name, entry.kind, name.text, name.span)
-
-
-def _ordered(graph: str, kept: set[str], names: Names) -> tuple[str, ...]:
-    return tuple(motion for motion in names.motions(graph) if motion in kept)

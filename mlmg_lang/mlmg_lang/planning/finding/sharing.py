@@ -52,5 +52,5 @@ def _layers(
             yield here[0]
             continue
         kept = set.intersection(*(set(layer.motions) for layer in here))
-        motions = tuple(motion for motion in names.motions(graph) if motion in kept)
+        motions = names.in_order(graph, kept)
         yield Layer(Both(graph, motions, tuple(layer.choice for layer in here), span), span)

@@ -15,8 +15,9 @@ def whole(motion: syntax.Motion, room: Room, search: Search) -> Ways | Diagnosti
     graphs = search.graphs(motion, room)
     if isinstance(graphs, Diagnostic):
         return None
+    fixed = is_fixed(motion)
     for graph in graphs:
-        choice = motions_on(graph, motion, search.names, is_fixed(motion))
+        choice = motions_on(graph, motion, search.names, fixed)
         if choice.motions:
             return (Layering((Layer(choice, motion.span),)),)
     return None
