@@ -117,6 +117,18 @@ def test_after_edits_while_it_is_read_all_is_known_as_if_there_had_been_none(cli
     assert client.diagnostics(URI, 2) == told
 
 
+def test_after_an_edit_what_has_been_read_is_not_read_again_before_there_are_answers(client):
+    client.open(URI, LONG)
+    client.diagnostics(URI, 1)
+    start = {"line": 0, "character": 0}
+    client.edit(URI, 2, {"range": {"start": start, "end": start}, "text": "Talk_01 once\n"})
+    hovered = client.ask("textDocument/hover", place(0))
+    assert "Talk_01" in hovered["contents"]["value"]
+    first = client.diagnostics(URI, 2)
+    assert [one["range"]["start"]["line"] for one in first[:2]] == [3, 8]
+    assert len(first) < 200
+
+
 def test_a_client_that_asks_is_answered_early_and_told_to_ask_again(start):
     client = start()
     client.initialize(PULLED)
