@@ -248,7 +248,6 @@ class Documents:
 
     async def _look_ahead(self, snapshot: Snapshot) -> None:
         """Find out what takes long the first time; later edits leave nearly all of it as it is."""
-
         await off_loop(undisturbed()(partial(self._get_ahead, snapshot)))
         settle()
 
