@@ -210,21 +210,18 @@ class Documents:
 
     async def _read(self, document: Document) -> Analysis:
         """Return the analysis of a text; of a long one that is new, after ever longer beginnings of it."""
-        from mlmg_lang.beginnings import closed, longer, n_defining
+        from mlmg_lang.beginnings import beginnings
 
         lines, n_read = document.lines, document.n_read
         if document.stale or document.analysis is None:
-            n_lines = longer(lines, 0)
-        else:
-            n_lines = len(lines) if n_read is None else closed(lines, min(n_read, len(lines)), n_read)
-        n_needed = 0 if n_lines == len(lines) else await off_loop(lambda: n_defining(lines))
-        while n_lines < len(lines):
+            n_read = 0
+        ends = [(len(lines), True)] if n_read is None else await off_loop(lambda: list(beginnings(lines, n_read)))
+        for n_lines, is_sure in ends[:-1]:
             analysis = await off_loop(self._work(document, n_lines))
             self._take(document, analysis, n_lines)
-            if not document.revision and n_needed <= n_lines:
+            if is_sure and not document.revision:
                 await self._tell_beginning(document, analysis, n_lines)
-            n_lines = longer(lines, n_lines)
-        analysis = await off_loop(self._work(document, n_lines))
+        analysis = await off_loop(self._work(document, len(lines)))
         self._take(document, analysis, None)
         return analysis
 

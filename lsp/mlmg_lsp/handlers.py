@@ -90,6 +90,5 @@ def _of_item(session: ClientSession, name: str) -> Callable[[Any], Any]:
 
 def _last_line(params: Any) -> int:
     """Return the last line that a request is about; the first if it names none."""
-    positions = [getattr(params, "position", None), getattr(getattr(params, "range", None), "end", None)]
-    positions += getattr(params, "positions", ())
-    return max((one.line for one in positions if one is not None), default=0)
+    places = (getattr(params, "position", None), getattr(getattr(params, "range", None), "end", None))
+    return max((place.line for place in places if place is not None), default=0)

@@ -6,38 +6,45 @@ So there is something to say of a long text before all of it has been read.
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from itertools import accumulate
 from typing import Final
 
 from mlmg_lang.analysis import Analysis, InPieces
 from mlmg_lang.diagnostics import Severity
+from mlmg_lang.parsing.foreign import MEANT
 
 _FEWEST: Final = 300
 """So many lines a beginning has more than the one before: what these say is found out in about a tenth of a second."""
 _FURTHER: Final = 0.25
 """And at least by this share more, so that of a text of any length there are few beginnings."""
-_OPENS, _CLOSES = (re.compile(signs) for signs in (r"[({（｛]|/\*", r"[)}）｝]|\*/"))
-_MAY_DEFINE: Final = re.compile(r"\b(?:let|use)\b|\.ms\b|^\s*[^\s(]+\s+[^\s(]+(?:\([^)]*\))?\s*=", re.IGNORECASE)
-"""A definition, or a file with some, even where `let` or `use` is misspelt."""
+_NARROW: Final = str.maketrans("（）｛｝＝", "(){}=")
+_QUOTED, _COMMENT, _GROUP = (re.compile(form) for form in (r'"(?:[^"\\]|\\.)*"', "#.*", r"\([^()]*\)"))
+_OPENS, _CLOSES = (re.compile(signs) for signs in (r"[({]|/\*", r"[)}]|\*/"))
+_DEFINING: Final = "|".join(word for word, meant in MEANT.items() if not {"let", "use"}.isdisjoint(meant))
+_MAY_DEFINE: Final = re.compile(rf"=|\b(?:let|use)\b|(?:^|;)\s*(?:{_DEFINING})\b", re.IGNORECASE)
+"""A definition, or a file with some, even where `let` or `use` is another word; outside of parentheses."""
 
 
-def longer(lines: Sequence[str], n_read: int) -> int:
-    """Return how many lines the next beginning of a text has, when the last has had so many, or none."""
-    return closed(lines, n_read, n_read + max(_FEWEST, int(n_read * _FURTHER)))
+def beginnings(lines: Sequence[str], n_read: int = 0) -> Iterator[tuple[int, bool]]:
+    """Yield how many lines ever longer beginnings of a text have, and whether what these say is sure; the last is all.
 
-
-def closed(lines: Sequence[str], n_closed: int, n_lines: int) -> int:
-    """Return the fewest lines that are at least so many, and at whose end nothing is open.
+    Nothing is open at their ends. What one says is sure if nothing behind it may define names, which it may use.
 
     Parameters
     ----------
     lines : of the text, with their ends.
-    n_closed : how many there are where nothing is open, as far as is known; not more than `n_lines`.
+    n_read : the fewest that the first is to have, as so many were read before an edit.
     """
-    depths = accumulate(map(_deeper, lines[n_closed:]), lambda depth, more: max(depth + more, 0), initial=0)
-    return next((end for end, depth in enumerate(depths, n_closed) if end >= n_lines and not depth), len(lines))
+    depths = accumulate(map(_deeper, lines), lambda depth, more: max(depth + more, 0), initial=0)
+    fewest, n_defining = n_read or _FEWEST, None
+    for end, depth in enumerate(depths):
+        if fewest <= end < len(lines) and not depth:
+            n_defining = _n_defining(lines) if n_defining is None else n_defining
+            yield end, n_defining <= end
+            fewest = end + max(_FEWEST, int(end * _FURTHER))
+    yield len(lines), True
 
 
 def _deeper(line: str) -> int:
@@ -46,14 +53,21 @@ def _deeper(line: str) -> int:
     return len(_OPENS.findall(said)) - len(_CLOSES.findall(said))
 
 
-def n_defining(lines: Sequence[str]) -> int:
-    """Return how many lines there are up to the last that may define names, which may be used before."""
-    found = (at + 1 for at in reversed(range(len(lines))) if _MAY_DEFINE.search(_said(lines[at])))
-    return next(found, 0)
+def _n_defining(lines: Sequence[str]) -> int:
+    """Return how many lines there are up to the last that may define names."""
+    return next((at + 1 for at in reversed(range(len(lines))) if _may_define(lines[at])), 0)
+
+
+def _may_define(line: str) -> bool:
+    said, n_groups = _said(line), 1
+    while n_groups:
+        said, n_groups = _GROUP.subn("", said)
+    return _MAY_DEFINE.search(said) is not None or '.ms"' in line
 
 
 def _said(line: str) -> str:
-    return line.partition("#")[0]
+    """Return a line without its comment and what its quotes say, in signs of the script."""
+    return _COMMENT.sub("", _QUOTED.sub("_", line)).translate(_NARROW)
 
 
 def sure(analysis: Analysis) -> Analysis:

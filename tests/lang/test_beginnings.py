@@ -10,7 +10,7 @@ from typing import Any
 
 import pytest
 
-from mlmg_lang.beginnings import closed, longer, n_defining, sure
+from mlmg_lang.beginnings import beginnings, sure
 from mlmg_lang.diagnostics import Diagnostic, Severity
 from mlmg_lang.front_end import analyse, analyse_again
 from mlmg_lang.source import Source
@@ -41,11 +41,11 @@ def lines_of(text: str) -> list[str]:
 
 
 def parts(lines: Sequence[str], n_further: int) -> Iterator[int]:
-    """Yield of how many lines the beginnings of a text are, the last of all."""
-    end = 0
-    while end < len(lines):
-        end = closed(lines, end, end + n_further)
-        yield end
+    """Yield how many lines there are in beginnings that are short, but sure, the last of all."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("mlmg_lang.beginnings._FEWEST", n_further)
+        found = list(beginnings(lines))
+    return (end for end, is_sure in found if is_sure)
 
 
 def errors(analysis: Any) -> set[tuple[str, Any, str]]:
@@ -69,8 +69,10 @@ def random_text(draw: random.Random, written: Sequence[str]) -> str:
         ("/* A\nB */\nC\n", [2, 3]),
         ("# :(\nA\n", [1, 2]),
         ("A)\nB\n", [1, 2]),
+        ('(A or ")"\nor B)\nC\n', [2, 3]),
+        ('"(" for 1 sec\nB\n', [1, 2]),
         ("repeat 2 {\nA\nB\n", [3]),
-        ("", []),
+        ("", [0]),
     ],
 )
 def test_at_the_end_of_a_beginning_nothing_is_open(text, ends):
@@ -78,25 +80,32 @@ def test_at_the_end_of_a_beginning_nothing_is_open(text, ends):
 
 
 def test_a_beginning_has_a_good_deal_more_than_the_one_before():
-    lines = ["A\n"] * 100_000
-    ends = [end := longer(lines, 0)]
-    while end < len(lines):
-        ends.append(end := longer(lines, end))
+    ends = [end for end, _ in beginnings(["A\n"] * 100_000)]
     assert ends[:3] == [300, 600, 900]
     assert len(ends) < 30
     assert ends[-1] == 100_000
+
+
+def test_after_an_edit_the_first_beginning_has_what_has_been_read_where_nothing_is_open():
+    lines = ["A\n", "(B\n", "or C)\n"] * 1000
+    assert next(beginnings(lines, 301)) == (301, True)
+    assert next(beginnings(lines, 302)) == (303, True)
+    assert next(beginnings(lines, 4000)) == (3000, True)
 
 
 @pytest.mark.parametrize(
     ("line", "defines"),
     [
         *(("let x = WALK\n", True), ("LET x(a) = WALK\n", True), ('use "a.ms"\n', True), ("lte x = WALK\n", True)),
-        *(("let\n", True), ('ues "a.ms"\n', True), ("lett f(a, b = 1 sec) = a for b\n", True)),
+        *(("let\n", True), ('ues "a.ms"\n', True), ("lett f(a, b = 1 sec) = a for b\n", True), ("x = WALK\n", True)),
+        *(("define x as WALK\n", True), ("def x: WALK\n", True), ("lte x ＝ WALK\n", True), ("A; lte x = B\n", True)),
+        *(('"wave #1" for 1 sec; let x = B\n', True), ('lte "a b" = WALK\n', True), ("import gestures\n", True)),
         *(("WALK # let it be\n", False), ("f(part = WALK)\n", False), ("WALK with Upper-Body f(x = TALK)\n", False)),
+        *(('"let it be"\n', False), ("f(a = (WALK or (TALK)), b = 1 sec)\n", False), ("WALK for 3 sec; IDLE\n", False)),
     ],
 )
 def test_what_may_define_a_name_is_known_by_its_looks(line, defines):
-    assert n_defining(["A\n", line, "B\n"]) == (2 if defines else 0)
+    assert next(beginnings(["A\n"] * 300 + [line])) == (300, not defines)
 
 
 # --- what is told of it ---
@@ -120,10 +129,9 @@ def test_of_garbled_texts_hardly_anything_is_told_that_is_not_told_of_the_whole(
         lines = lines_of(author.text)
         whole = errors(analyse(Source("".join(lines)), reference))
         for end in parts(lines, 5):
-            if n_defining(lines) <= end:
-                told = errors(sure(analyse(Source("".join(lines[:end])), reference)))
-                n_told += len(told)
-                n_false += len(told - whole)
+            told = errors(sure(analyse(Source("".join(lines[:end])), reference)))
+            n_told += len(told)
+            n_false += len(told - whole)
     assert n_told > 500
     assert n_false <= n_told / 200
 
@@ -158,7 +166,7 @@ def test_from_beginning_to_beginning_with_edits_between_all_becomes_known_as_afr
     author = EDITS["Author"](seed, None, n_lines=(10, 60))
     analysis, end, lines = None, 0, lines_of(author.text)
     while end < len(lines) or analysis is None:
-        end = closed(lines, min(end, len(lines)), end + draw.choice((0, 1, 3, 10)))
+        end, _ = next(beginnings(lines, end + draw.choice((1, 3, 10))))
         source = Source("".join(lines[:end]))
         analysis = analyse(source, reference) if analysis is None else analyse_again(analysis, source)
         assert analysis.diagnostics == analyse(source, reference).diagnostics

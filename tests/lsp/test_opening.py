@@ -14,6 +14,7 @@ PULLED = {
     "textDocument": {"diagnostic": {"dynamicRegistration": False}},
     "workspace": {"diagnostics": {"refreshSupport": True}},
 }
+FIRST_LINES = {"start": {"line": 0, "character": 0}, "end": {"line": 5, "character": 0}}
 LINES = (
     "WALK with Upper-Body TALK for 3 sec\n",
     "IDLE for 2 sec\n",
@@ -75,11 +76,29 @@ def test_what_is_asked_of_the_first_lines_is_answered_before_what_is_asked_of_al
         client.begin("textDocument/hover", place(2900)),
         client.begin("textDocument/hover", place(1)),
         client.begin("textDocument/completion", place(5)),
-        client.begin("textDocument/selectionRange", {**HERE, "positions": [{"line": 4, "character": 1}]}),
+        client.begin("textDocument/semanticTokens/range", {**HERE, "range": FIRST_LINES}),
     ]
     answered = [client.wait(lambda one: one.get("id") in order) for _ in order]
     assert all(one["result"] for one in answered)
     assert {one["id"] for one in answered[:3]} == set(order[2:])
+
+
+def test_what_changes_all_is_answered_of_all(client):
+    client.open(URI, "let B = WALK or TALK\n" + "B for 1 sec\n" * 2000)
+    at = {"line": 0, "character": 4}
+    context = {"diagnostics": [], "only": ["refactor.inline"]}
+    actions = client.ask("textDocument/codeAction", {**HERE, "range": {"start": at, "end": at}, "context": context})
+    edits = [one for action in actions for change in action["edit"]["changes"].values() for one in change]
+    assert len(edits) > 2000
+
+
+def test_after_an_edit_that_moves_all_lines_nothing_is_told_that_is_taken_back(client):
+    client.open(URI, "(WALK or\n    TALK or\n    IDLE or\n    Idle_01) for 1 sec\n" * 600)
+    assert client.diagnostics(URI, 1) == []
+    start = {"line": 0, "character": 0}
+    client.edit(URI, 2, {"range": {"start": start, "end": start}, "text": "\n"})
+    told = told_until(client, client.begin("textDocument/documentSymbol", HERE))
+    assert not any(told)
 
 
 @pytest.mark.parametrize("last", ["let wlak = WALK\n", "let WLAK = WALK\n"])

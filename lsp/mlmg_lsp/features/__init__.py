@@ -82,8 +82,8 @@ FEATURES: Final[tuple[tuple[str, Any, str], ...]] = (
 """By method: what the client is told of it, and what answers a request about a text."""
 
 OF_A_PLACE: Final = frozenset({
-    *("diagnostic.diagnostic", "completion.completion", "code_action.code_action", "navigation.hover"),
-    *("navigation.definition", "navigation.signature_help", "structure.selection_range", "semantic_tokens.within"),
+    *("diagnostic.diagnostic", "completion.completion", "navigation.hover", "navigation.definition"),
+    *("navigation.signature_help", "semantic_tokens.within"),
 })  # fmt: skip
 """What is answered by what stands before and at a place; of diagnostics, as many as there are."""
 
