@@ -151,6 +151,11 @@ class Documents:
         analysis = await asyncio.shield(ready)
         return self._snapshot(document, version, analysis)
 
+    async def all_read(self) -> None:
+        """Wait until all open texts are known, as they are then."""
+        while reading := [one.ready for one in self.all() if not one.ready.done()]:
+            await asyncio.wait(reading)
+
     def _snapshot(self, document: Document, version: int, analysis: Analysis) -> Snapshot:
         others = [one for one in self.all() if one is not document]
         return Snapshot(

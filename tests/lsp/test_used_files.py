@@ -83,3 +83,23 @@ def test_the_use_that_leads_to_the_file_is_underlined_be_it_by_way_of_another(st
     client.open(user, 'use "fine.ms"\nuse "moves/more.ms"\nstroll\nfine\n')
     assert ("MS021", 1) in codes(client.diagnostics(user))
     assert codes(client.diagnostics(used.as_uri())) == [("MS021", 1)]
+
+
+@pytest.mark.parametrize("method", ["references", "rename"])
+def test_what_is_asked_of_all_scripts_waits_for_those_that_are_read(start, tmp_path, used, method):
+    used.write_text(RIGHT, encoding="utf-8")
+    client, user = begun(start, PUSHED), (tmp_path / "user.ms").as_uri()
+    client.open(used.as_uri(), RIGHT)
+    client.diagnostics(used.as_uri())
+    client.open(user, 'use "moves/used.ms"\n' + "stroll\n" * 1500)
+    asked = {"textDocument": {"uri": used.as_uri()}, "position": {"line": 0, "character": 5}, "newName": "amble"}
+    asked["context"] = {"includeDeclaration": True}
+
+    def n_found() -> int:
+        found = client.ask(f"textDocument/{method}", asked)
+        return len(found) if method == "references" else sum(map(len, found["changes"].values()))
+
+    assert n_found() == 1501
+    start_of_text = {"line": 0, "character": 0}
+    client.edit(used.as_uri(), 2, {"range": {"start": start_of_text, "end": start_of_text}, "text": " "})
+    assert n_found() == 1501

@@ -86,6 +86,8 @@ OF_A_PLACE: Final = frozenset({
     *("navigation.signature_help", "semantic_tokens.within"),
 })  # fmt: skip
 """What is answered by what stands before and at a place; of diagnostics, as many as there are."""
+OF_ALL_TEXTS: Final = frozenset({"navigation.references_of", "navigation.rename_to"})
+"""What is answered by all texts that are open."""
 
 COMMANDS: Final[Mapping[str, str]] = {
     "mlmg.play": "execute_command.play",
