@@ -19,6 +19,8 @@ from mlmg_lang.planning.names import Names
 from mlmg_lang.source import Source, Span
 
 _STANDS_FOR_ANY: Final = "wait 1 sec"
+_MOST_OPEN: Final = 50
+"""So many lines before the cursor are looked through for a parenthesis that is still open."""
 
 
 def tokens_around(analysis: Analysis, offset: int) -> tuple[Token, ...]:
@@ -28,17 +30,28 @@ def tokens_around(analysis: Analysis, offset: int) -> tuple[Token, ...]:
     """
     made = analysis.made
     starts, lines = made.places.line_starts, made.lines
-    at = starts.last_to(offset)
+    at = min(starts.last_to(offset), len(lines) - 1)  # The end of the text is in its last line.
     first = next((number for number in range(at - 1, -1, -1) if lines[number].solid), 0)
+    first = min((first, *_open_before(lines, first)))
     before, behind = _around(made, offset, first, at + 2)
     numbers = (*_braces(lines, before), *range(first, min(at + 2, len(lines))), *_braces(lines, behind))
     return tuple(chain.from_iterable(_tokens(lines[one], starts[one]) for one in numbers))
 
 
+def _open_before(lines: Chunks[Piece], end: int) -> Iterator[int]:
+    """Yield the lines before one with parentheses that are still open there."""
+    for at in range(end - 1, max(end - _MOST_OPEN, 0) - 1, -1):
+        balance = lines[at].balance
+        if balance.n_open:
+            yield at
+        if balance.parts:
+            return
+
+
 def _around(made: InPieces, offset: int, first: int, end: int) -> tuple[range, range]:
     """Return the lines of the block at an offset that stand before and behind some."""
     starts = made.places.starts
-    at = starts.last_to(offset)
+    at = min(starts.last_to(offset), len(made.pieces) - 1)
     whole = (bisect_left(made.places.line_starts, one) for one in starts[at : at + 2])
     return range(min(next(whole), first), first), range(end, next(whole, end))
 

@@ -29,6 +29,12 @@ class InOrder:
 
 
 @pytest.fixture
+def in_order() -> Callable[[Names], InOrder]:
+    """Return what tells how well the motions of a library fit, where what stands earlier fits better."""
+    return InOrder
+
+
+@pytest.fixture
 def offers(reference: Catalog) -> Callable[..., list[Completion]]:
     """Return a function: a text with `|` for the cursor, a library, what plays -> what is offered there."""
 

@@ -8,9 +8,35 @@ import pytest
 
 from mlmg_lang.catalog import Catalog
 from mlmg_lang.front_end import analyse, analyse_again, analyse_for
+from mlmg_lang.ide.completion import Surroundings, complete
+from mlmg_lang.ide.cursor import cursor_at
 from mlmg_lang.ide.here import state_before, statement_start, tokens_around
+from mlmg_lang.ide.offers import Offers
+from mlmg_lang.parsing.tokenize import tokenize
 from mlmg_lang.planning.names import Names
 from mlmg_lang.source import Source
+
+WRITTEN = """let GREET(who,
+    t = 2 sec) = who
+    with Upper-Body WAVE for t
+IDLE # first
+WALK
+with Upper-Body (TALK and
+    not IDLE
+    or WAVE)
+repeat 2 {
+    Walk_01; wait 2 sec
+    choose {
+        | GREET(WALK,
+            t = 3 sec)
+        | 3: IDLE
+            once
+    }
+    end Upper-Body
+
+}
+"Walk_02" or TALK"""
+CURSORS = range(len(WRITTEN) + 1)
 
 
 def playing(text: str, library: Catalog, graph: str = "Full-Body") -> set[str]:
@@ -90,3 +116,24 @@ def test_the_statement_begins_where_its_first_word_does():
     text = "IDLE\nWALK\n  with Upper-Body TA"
     analysis = analyse(Source(text))
     assert statement_start(tokens_around(analysis, len(text)), len(text)) == text.index("WALK")
+
+
+def test_what_is_around_says_of_a_text_that_is_being_written_what_all_of_it_says():
+    for end in CURSORS:
+        for text in (WRITTEN[:end], f"{WRITTEN[:end]}\n", WRITTEN):
+            near = cursor_at(tokens_around(analyse(Source(text)), end), end)
+            assert near == cursor_at(tokenize(Source(text)), end), text
+
+
+def test_a_line_end_behind_the_text_makes_no_difference(reference, in_order):
+    names = Names(reference)
+
+    def offered(text, offset):
+        analysis = analyse(Source(text), reference)
+        definitions, before = analysis.made.gathered.definitions, state_before(analysis, offset, names)
+        around = Surroundings(names, definitions, before.state, Offers(names, in_order(names)))
+        found = complete(tokens_around(analysis, offset), offset, around)
+        return found.span, found.found
+
+    for end in CURSORS:
+        assert offered(WRITTEN[:end], end) == offered(f"{WRITTEN[:end]}\n", end), WRITTEN[:end]
