@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from enum import StrEnum
 from types import MappingProxyType
@@ -198,4 +198,9 @@ class Diagnostic:
 
 def has_errors(diagnostics: tuple[Diagnostic, ...]) -> bool:
     """Return whether one of them keeps the script from being played."""
-    return any(diagnostic.severity is Severity.ERROR for diagnostic in diagnostics)
+    return n_errors(diagnostics) > 0
+
+
+def n_errors(diagnostics: Iterable[Diagnostic]) -> int:
+    """Return how many of them keep the script from being played."""
+    return sum(diagnostic.severity is Severity.ERROR for diagnostic in diagnostics)

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Final, TypeAlias
 
-from mlmg_lang.diagnostics import Diagnostic, Fix, Severity
+from mlmg_lang.diagnostics import Diagnostic, Fix, n_errors
 from mlmg_lang.source import Source
 
 Diagnose: TypeAlias = Callable[[Source], tuple[Source, Sequence[Diagnostic]]]
@@ -82,7 +82,7 @@ def _edited(state: Fixed, edits: Sequence[Fix], diagnose: Diagnose) -> Fixed | N
     if text == state.source.text:
         return None
     source, diagnostics = diagnose(Source(text, state.source.name))
-    worse = _n_errors(diagnostics) > _n_errors(state.diagnostics)
+    worse = n_errors(diagnostics) > n_errors(state.diagnostics)
     return None if worse else Fixed(source, tuple(diagnostics), state.n_fixed + len(edits))
 
 
@@ -92,7 +92,3 @@ def _one_by_one(state: Fixed, edits: Sequence[Fix], diagnose: Diagnose) -> Fixed
     for edit in reversed(edits):
         after = _edited(after, (edit,), diagnose) or after
     return None if after is state else after
-
-
-def _n_errors(diagnostics: Iterable[Diagnostic]) -> int:
-    return sum(one.severity is Severity.ERROR for one in diagnostics)

@@ -53,8 +53,8 @@ class Piece:
     statements : none without a library.
     said : what is wrong with what it means.
     retold : what is told in place of `misread` and `said`, where there are spaces in names; else None.
-    is_faulty : whether something may be wrong with its names.
-    n_named : how much is said of them; -1 if it was not worked out, as there is too much before it.
+    is_faulty : whether something may be wrong with its names, other than how they are spelt.
+    n_named : how much is said to be wrong with them; -1 if it was not worked out, as there is too much before it.
     """
 
     size: int

@@ -10,7 +10,7 @@ from mlmg_lang.analysis import Question
 from mlmg_lang.chunks import Chunks
 from mlmg_lang.definitions.expand import Expander
 from mlmg_lang.definitions.gather import Gathered
-from mlmg_lang.diagnostics import Diagnostic
+from mlmg_lang.diagnostics import Diagnostic, Severity, n_errors
 from mlmg_lang.following import without_following
 from mlmg_lang.parsing.case import guess_case
 from mlmg_lang.parsing.parse import MAX_MISTAKES
@@ -69,7 +69,7 @@ class Reader:
         return done
 
     def _understood(self, piece: Piece, tells: bool) -> Piece:
-        """Return a piece with what it means; `tells`: and with what is wrong with its names."""
+        """Return a piece with what it means; `tells`: and with what is wrong with its names, not hints alone."""
         script = Script(piece.items, Span(piece.address, piece.address + piece.size))
         expanded, n_nodes, said = self._expanded(piece)
         said += misplaced(script) if piece.defining else ()
@@ -84,8 +84,8 @@ class Reader:
         else:
             statements = planner.body(expanded)
             is_faulty, named = planner.take()
-            n_named = len(named) if tells else -is_faulty
-            said += named if tells else ()
+            n_named = n_errors(named) if tells else -is_faulty
+            said += (one for one in named if tells or one.severity is not Severity.ERROR)
         told = without_following(said, piece.misread, piece.items) if piece.misread else said
         understood = replace(
             piece,

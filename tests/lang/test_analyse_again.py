@@ -331,7 +331,7 @@ def test_of_too_many_mistakes_the_same_are_told_as_afresh(
             analysis = check(analysis, text, libraries[name])
 
 
-@pytest.mark.parametrize(("mistaken", "n_lines"), [(MISNAMED, 400), (MISWRITTEN, 500)])
+@pytest.mark.parametrize(("mistaken", "n_lines"), [(MISNAMED, 450), (MISWRITTEN, 500)])
 def test_around_as_many_mistakes_as_are_told_all_is_as_if_analysed_afresh(
     libraries: Mapping[str, Any], mistaken: tuple[str, ...], n_lines: int
 ) -> None:
@@ -360,6 +360,32 @@ def test_an_edit_of_a_script_with_too_many_mistakes_leaves_all_else_as_it_was(li
     mended = check(again, text.replace("WLAK", "WALK", 1), library)
     assert n_kept(again, mended) == len(before.ready.pieces) - 3
     check(mended, text, library)
+
+
+def test_hints_are_no_mistakes_however_many_there_are(libraries: Mapping[str, Any]) -> None:
+    library, text = libraries["reference"], "walk01 for 2 sec\n" * 260
+    before = analyse(Source(text), library)
+    assert [one.code for one in before.diagnostics] == 260 * ["MS020"]
+    again = check(before, text.replace("2", "3", 1), library)
+    assert n_kept(before, again) == len(before.ready.pieces) - 1
+    behind = check(again, "WLAK for 2 sec\n" * 202 + text, library)
+    assert [one.code for one in behind.diagnostics] == 201 * ["MS021"] + ["MS006"] + 260 * ["MS020"]
+    check(behind, text, library)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "; ".join(260 * ["walk01 for 2 sec"]),
+        f"repeat 2 {{ {'; '.join(260 * ['walk01 for 2 sec'])} }}",
+        "".join(f"let X_{n} = walk01\n" for n in range(260)),
+    ],
+    ids=["line", "block", "definitions"],
+)
+def test_hints_of_one_line_or_of_definitions_are_no_mistakes(libraries: Mapping[str, Any], text: str) -> None:
+    analysis = analyse(Source(text), libraries["reference"])
+    assert analysis.resolved is not None
+    assert sum(one.code == "MS020" for one in analysis.diagnostics) == 260
 
 
 def test_a_mistake_less_in_a_script_of_which_the_rest_is_not_read_has_some_more_of_it_read(

@@ -8,7 +8,7 @@ from typing import Final
 
 from mlmg_lang.definitions.expand import told_from
 from mlmg_lang.definitions.gather import Definitions
-from mlmg_lang.diagnostics import Diagnostic, Label, has_errors
+from mlmg_lang.diagnostics import Diagnostic, Label, has_errors, n_errors
 from mlmg_lang.moving import by, moved
 from mlmg_lang.parsing import syntax
 from mlmg_lang.parsing.amounts import seconds_from_quantity, unit_of
@@ -62,6 +62,7 @@ class Planner:
             to be told.
         """
         self.diagnostics: list[Diagnostic] = []
+        self._n_errors = 0
         self._is_faulty = False
         self._scope = Scope(
             names,
@@ -78,16 +79,17 @@ class Planner:
         """Report what is wrong with the names of definitions and the names in them."""
         known = frozenset(definitions.lets)
         for let in definitions.lets.values():
-            if len(self.diagnostics) > MAX_MISTAKES:
+            if self._n_errors > MAX_MISTAKES:
                 self._give_up(let.name.span)
                 return
-            self.diagnostics += _clashes(let.name, self._scope.names)
+            self._tell(_clashes(let.name, self._scope.names))
             own = frozenset(normal(parameter.name.text) for parameter in let.parameters or ())
             scope = replace(self._scope, definitions=known, parameters=own)
             n_told = len(self.diagnostics)
             if self._report(unbound(let.command.motion, scope)):
-                self.diagnostics[n_told:] = self._of_names(self.diagnostics[n_told:], let.span)
-            self.diagnostics += spelling_hints(let.command.motion, scope)
+                told = self._taken_back(n_told)
+                self._tell(self._of_names(told, let.span))
+            self._tell(spelling_hints(let.command.motion, scope))
             for parameter in let.parameters or ():
                 if parameter.default is not None and not isinstance(parameter.default, syntax.Quantity):
                     self._report(unbound(parameter.default, replace(scope, parameters=frozenset())))
@@ -106,14 +108,25 @@ class Planner:
 
     def take(self) -> tuple[bool, tuple[Diagnostic, ...]]:
         """Return whether anything has been wrong since this was asked last, said or not, and what there is to say."""
-        taken = self._is_faulty or bool(self.diagnostics), tuple(self.diagnostics)
-        self._is_faulty, self.diagnostics = False, []
+        is_faulty = self._is_faulty or self._n_errors > 0
+        self._is_faulty = False
+        return is_faulty, tuple(self._taken_back(0))
+
+    def _tell(self, told: Iterable[Diagnostic]) -> None:
+        told = tuple(told)
+        self.diagnostics += told
+        self._n_errors += n_errors(told)
+
+    def _taken_back(self, first: int) -> list[Diagnostic]:
+        """Return what has been told from a number on, which then has not been told."""
+        self.diagnostics, taken = self.diagnostics[:first], self.diagnostics[first:]
+        self._n_errors -= n_errors(taken)
         return taken
 
     def _statement(self, item: syntax.Item) -> typed.Statement:
         planned: typed.Statement = typed.Unplanned(item.span)
         match item:
-            case _ if len(self.diagnostics) > MAX_MISTAKES:
+            case _ if self._n_errors > MAX_MISTAKES:
                 self._give_up(item.span)
             case syntax.Command():
                 planned = self._command(item)
@@ -130,7 +143,7 @@ class Planner:
 
     def _give_up(self, span: Span) -> None:
         if self.diagnostics[-1].code != "MS006":
-            self.diagnostics.append(too_many(span))
+            self._tell([too_many(span)])
 
     def _command(self, command: syntax.Command) -> typed.Statement:
         before = len(self.diagnostics)
@@ -150,10 +163,10 @@ class Planner:
             return None
         ways = select(motion, self._scope.names, self._source, explains=self._scope.explains)
         if isinstance(ways, Diagnostic):
-            self.diagnostics.append(self._at_its_use(ways, command))
+            self._tell([self._at_its_use(ways, command)])
             return None
         remarks = (*graph_hints(motion, self._scope.names), *self._remarks(ways[0]))
-        self.diagnostics += remarks
+        self._tell(remarks)
         return None if has_errors(remarks) else ways
 
     def _at_its_use(self, one: Diagnostic, command: Span) -> Diagnostic:
@@ -179,8 +192,8 @@ class Planner:
         for one in wrong:
             found = True
             if one.diagnostic is not None:
-                self.diagnostics.append(one.diagnostic)
-            if len(self.diagnostics) > MAX_MISTAKES or not self._scope.explains:
+                self._tell([one.diagnostic])
+            if self._n_errors > MAX_MISTAKES or not self._scope.explains:
                 break
         self._is_faulty = self._is_faulty or found
         return found
@@ -212,7 +225,7 @@ class Planner:
         if is_sub(graph) or self._report(graph_name(graph, self._scope)):
             return typed.Unplanned(span)
         meant = self._scope.names.graph(graph.text) or graph.text
-        self.diagnostics += inexact(graph, meant)
+        self._tell(inexact(graph, meant))
         return typed.End(meant, span)
 
     def _duration(self, amount: syntax.Amount) -> typed.Duration:
