@@ -121,6 +121,15 @@ def test_without_a_library_words_and_own_definitions_are_offered(start):
     client.initialize()
     opened(client, "let stroll = WALK\n\n")
     assert {"stroll", "repeat", "wait"} <= set(labels(client, 1, 0))
+    cases = (
+        ("stroll ", ["with", "for", "once", "and", "or"]),
+        ("FOO w", ["with"]),
+        ("FOO with ", ["stroll", "Sub", "not"]),
+        ("FOO with Arm TALK with ", ["stroll", "Sub", "not"]),
+    )
+    for version, (written, offered) in enumerate(cases, 2):
+        client.edit(URI, version, {"text": f"let stroll = WALK\n{written}"})
+        assert labels(client, 1, len(written)) == offered
 
 
 def test_in_an_empty_text_there_is_nothing_to_tell_and_nothing_to_do(client):

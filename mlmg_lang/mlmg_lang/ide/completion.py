@@ -124,12 +124,12 @@ class _Completer:
 
     def _leaves_room(self, motion: Sequence[Token]) -> bool:
         """Return whether a `with` behind a motion would leave a graph to speak of."""
-        return bool(self.reach.rooms_below(expression(motion)))
+        return self.reach.leaves_room(expression(motion))
 
     def _has_room(self, own: Sequence[Token]) -> bool:
         """Return whether there is a graph to speak of: one that the `with` before has left, if there is one."""
         left = left_of_with(own)
-        return left is None or bool(self.reach.rooms_below(left))
+        return left is None or self.reach.leaves_room(left)
 
     # --- names ---
 
@@ -166,14 +166,14 @@ class _Completer:
         if left is None:
             yield from self._anywhere(before, own)
             return
-        rooms = self.reach.rooms_below(left)
-        if not rooms:
+        if not self.reach.leaves_room(left):
             return
+        rooms = self.reach.rooms_below(left)
         yield from self._unqualified(rooms, set())
         yield self._parameters_of(before)
         yield self._definitions(own)
         yield (_graph(graph, _part_says(graph, self.around.names)) for graph, _ in rooms)
-        yield (_graph(SUB, f"the part below: {rooms[0][0]}"),)
+        yield (_graph(SUB, ": ".join(("the part below", *[graph for graph, _ in rooms[:1]]))),)
 
     def _anywhere(self, before: Sequence[Token], own: Sequence[Token]) -> Iterator[Iterable[Completion]]:
         """Yield what a command may begin with: what the whole body does first, then what parts may do as it is."""

@@ -69,6 +69,10 @@ class Reach:
         above = names.ancestors(graph) or (graph,)
         return next(parts[one].motions for one in above if one in parts)
 
+    def leaves_room(self, motion: Sequence[Token]) -> bool:
+        """Return whether a `with` behind a motion leaves a graph; without a library nobody knows of graphs."""
+        return not self.names.motions(self.names.root) or bool(self.rooms_below(motion))
+
     def rooms_below(self, motion: Sequence[Token]) -> list[Below]:
         """Return the graphs that a `with` behind a motion leaves; if that is not known, all but the root."""
         way, names = self._way(motion), self.names
