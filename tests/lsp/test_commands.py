@@ -150,7 +150,7 @@ def test_where_a_motion_is_written_and_whether_there_is_a_report_can_be_said(cli
     assert not [one for one in said if "a.bvh" in one["params"]["message"]]
 
 
-@pytest.mark.parametrize("name", ["play", "explain", "candidates"])
+@pytest.mark.parametrize("name", ["play", "explain"])
 @pytest.mark.parametrize(
     ("text", "why"),
     [
@@ -217,6 +217,25 @@ def test_a_command_is_asked_for_its_candidates_where_it_stands(client, script):
     assert "line 1" not in text
     gone = {"line": 3, "character": 0}
     assert "no command" in refused(client, command("candidates", uri=script.as_uri(), position=gone))["message"]
+
+
+def test_a_sound_command_is_asked_for_its_candidates_though_another_line_has_a_mistake(client, script):
+    client.edit(script.as_uri(), 2, {"text": "IDLE for 1 sec\nWLAK\nWALK for 1 sec"})
+    assert lenses(client, script.as_uri())[-1] == (2, "3 candidates on Full-Body", "mlmg.candidates")
+    at = [command("candidates", uri=script.as_uri(), position={"line": line, "character": 0}) for line in range(3)]
+    text = client.ask("workspace/executeCommand", at[2])["text"]
+    first, _, _, told = text.split("\n", 3)
+    wrong = "the script has 1 mistake; line 2: no tag or motion `WLAK` in this library"
+    assert first == wrong
+    assert told.startswith("line 3  WALK for 1 sec")
+    assert {"Walk_01", "Walk_02", "Walk_03"} <= set(told.replace(",", " ").split())
+    assert "IDLE for 1 sec" in client.ask("workspace/executeCommand", at[0])["text"]
+    assert refused(client, at[1])["message"] == wrong
+
+
+def test_a_script_without_a_command_has_no_candidates(client, script):
+    client.edit(script.as_uri(), 2, {"text": "# nothing\n"})
+    assert "no command" in refused(client, command("candidates", uri=script.as_uri()))["message"]
 
 
 def test_what_a_diagnostic_means_can_be_read(client):

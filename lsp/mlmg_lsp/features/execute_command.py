@@ -10,6 +10,7 @@ from typing import Any, Final, TypeAlias
 
 from lsprotocol import types
 
+from mlmg_lang.analysis import Analysis
 from mlmg_lang.diagnostics import CODES, Severity
 from mlmg_lang.explaining import explanation as told
 from mlmg_lang.explaining.explain import explanation_from_analysis
@@ -85,26 +86,33 @@ def explain(snapshot: Snapshot, _asked: Asked, _progress: Progress) -> Done:
     Refused
         If it cannot be played.
     """
-    text = render_text(_explained(snapshot))
+    _, library = _playable(snapshot)
+    text = render_text(explanation_from_analysis(snapshot.analysis, library))
     return Done("", {"text": text}, (f"{_stem(snapshot)}.explained.txt", text))
 
 
 def candidates(snapshot: Snapshot, asked: Asked, _progress: Progress) -> Done:
     """Tell which motions a command may play, in the order in which they are tried, and why others are left out.
 
+    Of a script with mistakes it is said first that it has some; what a command may play is then told as if what cannot
+    be understood were not there.
+
     Raises
     ------
     Refused
-        If the script cannot be played, or there is no command at the place.
+        If no library is known, or there is no command at the place that could be played.
     """
-    found = _explained(snapshot)
+    library, wrong = _library(snapshot), _mistakes(snapshot.analysis)
+    found = explanation_from_analysis(snapshot.analysis, library, despite_mistakes=True)
     source = snapshot.analysis.source
     position = asked.position or types.Position(0, 0)
     line, column = source.position(offset_of(source, position, snapshot.client.encoding))
     at = next((one for one in _commands(found.statements) if _holds(one.place, line, column)), None)
     if at is None:
-        raise Refused("there is no command at this place (any more)")
+        raise Refused(wrong or "there is no command at this place (any more)")
     text = render_statements(replace(found, statements=(at,)))
+    if wrong:
+        text = f"{wrong}\nWhat cannot be understood is left out of what is told here.\n\n{text}"
     return Done("", {"text": text}, (f"{_stem(snapshot)}.candidates.txt", text))
 
 
@@ -144,23 +152,35 @@ def _playable(snapshot: Snapshot) -> tuple[ResolvedPlan, Library]:
     Refused
         That says why it cannot be played.
     """
-    analysis = snapshot.analysis
-    if snapshot.shelved is None:
-        raise Refused("no library is known for this script, so there is nothing that it could be played on")
-    plan = analysis.resolved
+    library, plan = _library(snapshot), snapshot.analysis.resolved
     if plan is None:
-        wrong = [one for one in analysis.diagnostics if one.severity is Severity.ERROR]
-        first = f"; line {analysis.source.position(wrong[0].span.start)[0]}: " if wrong and wrong[0].span else ": "
-        said = wrong[0].message if wrong else ""
-        raise Refused(f"the script has {len(wrong)} mistake{'' if len(wrong) == 1 else 's'}{first}{said}")
+        raise Refused(_mistakes(snapshot.analysis))
     if not plan.statements:
         raise Refused("there is nothing to play; expected a command such as `WALK for 10 sec`")
-    return plan, snapshot.shelved.library
+    return plan, library
 
 
-def _explained(snapshot: Snapshot) -> told.Explanation:
-    _, library = _playable(snapshot)
-    return explanation_from_analysis(snapshot.analysis, library)
+def _library(snapshot: Snapshot) -> Library:
+    """Return what a script is played on.
+
+    Raises
+    ------
+    Refused
+        If that is not known.
+    """
+    if snapshot.shelved is None:
+        raise Refused("no library is known for this script, so there is nothing that it could be played on")
+    return snapshot.shelved.library
+
+
+def _mistakes(analysis: Analysis) -> str:
+    """Say how many mistakes a script has, and what the first is; nothing if it can be played."""
+    if analysis.resolved is not None:
+        return ""
+    wrong = [one for one in analysis.diagnostics if one.severity is Severity.ERROR]
+    first = f"; line {analysis.source.position(wrong[0].span.start)[0]}: " if wrong and wrong[0].span else ": "
+    said = wrong[0].message if wrong else ""
+    return f"the script has {len(wrong)} mistake{'' if len(wrong) == 1 else 's'}{first}{said}"
 
 
 def _stem(snapshot: Snapshot) -> str:

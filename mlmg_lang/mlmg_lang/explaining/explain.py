@@ -40,8 +40,9 @@ def explanation_from_analysis(
     ahead: Ahead | None = None,
     seed: int | None = None,
     now: World | None = None,
+    despite_mistakes: bool = False,
 ) -> told.Explanation:
-    """Return what a script without mistakes will do on the library that it was analysed against, and why.
+    """Return what a script will do on the library that it was analysed against, and why.
 
     Parameters
     ----------
@@ -49,15 +50,17 @@ def explanation_from_analysis(
     ahead : what looking ahead over the whole script has made of the plan, if that is what is played.
     seed : to play the script with, so that the explanation tells what happened; None: it is not played.
     now : what is playing already, if the text goes on with that.
+    despite_mistakes : whether a script with errors is explained too, as if what cannot be understood were not there;
+        each command has all the candidates that it may have, whatever that will come to.
 
     Raises
     ------
     ValueError
-        If the script has errors, so that it has no plan.
+        If the script has errors, and that is not wanted.
     mlmg_lang.staging.ScriptError
         If it is to be played, and the library does not allow that.
     """
-    if analysis.plan is None or analysis.resolved is None:
+    if analysis.plan is None or (analysis.resolved is None and not despite_mistakes):
         raise ValueError(f"{analysis.source.name} has errors, so there is no plan to explain")
     names, travel = Names(library), MotionTravel(library)
     resolution = resolve(analysis.plan, names, library, analysis.source, start, analysis.question.state)

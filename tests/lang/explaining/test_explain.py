@@ -34,6 +34,18 @@ def test_a_script_with_errors_has_no_explanation(made_library):
         explanation_from_analysis(analyse(Source("WLAK"), made_library), made_library)
 
 
+def test_despite_mistakes_all_else_is_explained_as_if_they_were_not_there(made_library, explained):
+    text = "IDLE for 1 sec\nWLAK\nrepeat 2 { WALK for 1 sec; TALK WLAK }\n"
+    analysis = analyse(Source(text, "script.ms"), made_library)
+    told = explanation_from_analysis(analysis, made_library, despite_mistakes=True)
+    first, repeat = told.statements
+    alone = explained("IDLE for 1 sec\n\nrepeat 2 { WALK for 1 sec }\n")
+    assert told.totals == alone.totals
+    assert first == alone.statements[0]
+    (within,), (expected,) = repeat.body, alone.statements[1].body
+    assert [layer.candidates for layer in within.layers] == [layer.candidates for layer in expected.layers]
+
+
 @pytest.mark.parametrize(
     ("script", "start", "expected"),
     [
