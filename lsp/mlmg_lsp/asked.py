@@ -14,7 +14,7 @@ from mlmg_lsp.open_text import path_of
 
 
 class Refused(JsonRpcException):
-    """What a command cannot do, and why, in words for the person."""
+    """What cannot be done, and why, in words for the person."""
 
     CODE = types.LSPErrorCodes.RequestFailed.value
 

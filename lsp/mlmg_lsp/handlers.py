@@ -32,7 +32,8 @@ def register(server: LanguageServer, session: ClientSession) -> None:
     for method, handler in handed_on:
         server.feature(method)(partial(handler))  # pygls writes on what it is given, which methods do not let it do
     for method, options, name in FEATURES:
-        server.feature(method, options)(_of_text(session, name))
+        answering = _of_all_texts_at if name in OF_ALL_TEXTS else _of_text
+        server.feature(method, options)(answering(session, name))
     for method, name in RESOLVING:
         server.feature(method)(_of_item(session, name))
     server.feature(types.TEXT_DOCUMENT_INLAY_HINT)(_of_hints(session))
@@ -43,11 +44,21 @@ def _of_text(session: ClientSession, name: str) -> Callable[[Any], Any]:
     """Return what answers a request about a text, off the thread that reads messages."""
 
     async def handler(params: Any) -> Any:
-        if name in OF_ALL_TEXTS:
-            await session.documents.all_read()
         line = _last_line(params) if name in OF_A_PLACE else None
         snapshot = await session.snapshot(params.text_document.uri, line)
         return await off_loop(lambda: answer_named(name)(snapshot, params))
+
+    return handler
+
+
+def _of_all_texts_at(session: ClientSession, name: str) -> Callable[[Any], Any]:
+    """Return what answers a request about a place by all open texts, and by closed ones that use the same file."""
+
+    async def handler(params: Any) -> Any:
+        await session.documents.all_read()
+        snapshot = await session.snapshot(params.text_document.uri)
+        users = await session.closed_users(snapshot, params)
+        return await off_loop(lambda: answer_named(name)(snapshot, params, users))
 
     return handler
 

@@ -14,14 +14,16 @@ from pygls.lsp.server import LanguageServer
 from mlmg_lsp.asking import Asker
 from mlmg_lsp.background import Background
 from mlmg_lsp.client import client_from
+from mlmg_lsp.closed import ClosedScripts, Users
 from mlmg_lsp.documents import Documents
 from mlmg_lsp.executing import Executor
-from mlmg_lsp.features import HINTS_AHEAD, answer_named, get_ahead, warm
+from mlmg_lsp.features import HINTS_AHEAD, HOME, answer_named, get_ahead, warm
 from mlmg_lsp.finding import LibraryFinder
 from mlmg_lsp.foresight import Foresight
 from mlmg_lsp.libraries import Shelf, Shelved
 from mlmg_lsp.open_text import Document, Snapshot, Superseded, path_of
 from mlmg_lsp.telling import Telling
+from mlmg_lsp.work import off_loop
 from mlmg_lsp.workspace import Settings, Workspace, folders_of
 
 if TYPE_CHECKING:
@@ -41,6 +43,7 @@ class ClientSession:
         self._server = server
         self.background = Background()
         self.workspace = Workspace(settings, shelf)
+        self._closed = ClosedScripts(self.workspace.files_on_disk)
         self._telling = Telling(server)
         self.documents = Documents(self.workspace.files, self._telling.tell, warm, get_ahead, self._is_whole)
         self._asker = Asker(server, self.documents, self.background)
@@ -88,6 +91,23 @@ class ClientSession:
             return await self.documents.snapshot(uri, line)
         except Superseded as error:
             raise JsonRpcContentModified(str(error)) from None
+
+    async def closed_users(self, snapshot: Snapshot, params: Any) -> Users:
+        """Return the scripts that are not open and use the file which defines the name at a place."""
+
+        def look() -> Users:
+            home = answer_named(HOME)(snapshot, params)
+            if home is None:
+                return Users()
+            own = path_of(snapshot.uri)
+            folders = self.workspace.folders_around(home, *(() if own is None else (own,)))
+            return self._closed.users(str(home), folders, snapshot)
+
+        users = await off_loop(look)
+        if users.left_out:
+            message = f"Not all scripts were looked at. Left out: {users.left_out}."
+            self._server.window_show_message(types.ShowMessageParams(types.MessageType.Warning, message))
+        return users
 
     def opened(self, params: types.DidOpenTextDocumentParams) -> None:
         """Take in a text."""

@@ -104,6 +104,12 @@ class Workspace:
         found = used_files(self.place_of(document), self.settings.allowed)
         return OpenFiles(replace(found, script=document.name), text_of)
 
+    def files_on_disk(self, script: Path) -> Files:
+        """Return what finds the files that a script uses which is not open."""
+        from mlmg_lang.script_files import used_files
+
+        return used_files(script, self.settings.allowed)
+
     async def find(self, document: Document, progress: Progress, loading: Callable[[], object]) -> Shelved | None:
         """Return the library of a text, opened; None if nothing names one.
 
@@ -139,7 +145,13 @@ class Workspace:
 
     def folder_of(self, document: Document) -> Path:
         """Return the folder that a text is in the workspace by; without one, that in which it is."""
-        place = self.place_of(document)
+        return self._folder(self.place_of(document))
+
+    def folders_around(self, *files: Path) -> tuple[Path, ...]:
+        """Return the folders of the workspace; for files that lie in none, those too in which they are."""
+        return tuple(dict.fromkeys((*self._roots.values(), *map(self._folder, files))))
+
+    def _folder(self, place: Path) -> Path:
         own = [root for root in self._roots.values() if place.is_relative_to(root)]
         return max(own, key=lambda root: len(root.parts), default=place.parent)
 

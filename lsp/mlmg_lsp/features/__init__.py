@@ -88,6 +88,8 @@ OF_A_PLACE: Final = frozenset({
 """What is answered by what stands before and at a place; of diagnostics, as many as there are."""
 OF_ALL_TEXTS: Final = frozenset({"navigation.references_of", "navigation.rename_to"})
 """What is answered by all texts that are open."""
+HOME: Final = "navigation.home_of"
+"""What says in which file it is defined: scripts that use it are asked too though they are not open."""
 
 COMMANDS: Final[Mapping[str, str]] = {
     "mlmg.play": "execute_command.play",

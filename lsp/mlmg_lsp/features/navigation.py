@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from pathlib import Path
+
 from lsprotocol import types
-from pygls.exceptions import JsonRpcInvalidRequest
 
 from mlmg_lang.ide import definition as definitions
 from mlmg_lang.ide import hover as hovers
 from mlmg_lang.ide import links, references, rename, signature
 from mlmg_lang.ide.occurrences import Place
 from mlmg_lang.source import Span
+from mlmg_lsp.asked import Refused
+from mlmg_lsp.closed import Users
 from mlmg_lsp.convert import (
     edit_in,
     index_after,
@@ -52,9 +56,16 @@ def definition(snapshot: Snapshot, params: types.DefinitionParams) -> list[types
     return None if found is None else [_location(snapshot, place) for place in found.places]
 
 
-def references_of(snapshot: Snapshot, params: types.ReferenceParams) -> list[types.Location]:
-    """Return where the name at a place is used, in all open texts too."""
+def home_of(snapshot: Snapshot, params: types.ReferenceParams | types.RenameParams) -> Path | None:
+    """Return the path of the file that defines the name at a place; None if no file does."""
+    home = references.home_at(snapshot.analysis, _offset(snapshot, params.position))
+    return None if home is None or not Path(home).is_absolute() else Path(home)
+
+
+def references_of(snapshot: Snapshot, params: types.ReferenceParams, users: Users) -> list[types.Location]:
+    """Return where the name at a place is used, in all open texts too, and in scripts that use its file."""
     offset, declared = _offset(snapshot, params.position), params.context.include_declaration
+    snapshot = _with(snapshot, users)
     return [
         _location(snapshot, place)
         for place in references.references(snapshot.analysis, offset, snapshot.others, declared)
@@ -73,26 +84,29 @@ def prepare_rename(snapshot: Snapshot, params: types.PrepareRenameParams) -> typ
 
     Raises
     ------
-    JsonRpcInvalidRequest
+    Refused
         That says why it cannot be another.
     """
     found = rename.prepare_rename(snapshot.analysis, _offset(snapshot, params.position))
     if isinstance(found, rename.Refusal):
-        raise JsonRpcInvalidRequest(found.why)
+        raise Refused(found.why)
     return types.PrepareRenamePlaceholder(_range(snapshot, found.span), found.name)
 
 
-def rename_to(snapshot: Snapshot, params: types.RenameParams) -> types.WorkspaceEdit:
+def rename_to(snapshot: Snapshot, params: types.RenameParams, users: Users) -> types.WorkspaceEdit:
     """Return the edits that give the name at a place another.
 
     Raises
     ------
-    JsonRpcInvalidRequest
+    Refused
         That says why that cannot be.
     """
-    found = rename.rename(snapshot.analysis, _offset(snapshot, params.position), params.new_name, snapshot.others)
+    offset, snapshot = _offset(snapshot, params.position), _with(snapshot, users)
+    found = rename.rename(snapshot.analysis, offset, params.new_name, snapshot.others, snapshot.opened.keys())
     if isinstance(found, rename.Refusal):
-        raise JsonRpcInvalidRequest(found.why)
+        raise Refused(found.why)
+    if users.unread:
+        raise Refused("; ".join(users.unread))
     return workspace_edits(
         snapshot,
         {file: [edit_in(snapshot, file, one.span, one.text) for one in edits] for file, edits in found.items()},
@@ -119,6 +133,11 @@ def signature_help(snapshot: Snapshot, params: types.SignatureHelpParams) -> typ
         for one in found.parameters
     ]
     return types.SignatureHelp([types.SignatureInformation(found.label, parameters=told)], 0, found.active)
+
+
+def _with(snapshot: Snapshot, users: Users) -> Snapshot:
+    """Return what is known of a text together with what is known of scripts that are not open."""
+    return replace(snapshot, others=(*snapshot.others, *users.analyses))
 
 
 def _offset(snapshot: Snapshot, position: types.Position) -> int:

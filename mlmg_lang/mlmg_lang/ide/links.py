@@ -2,11 +2,17 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
+from typing import Final
 
 from mlmg_lang.analysis import Analysis
 from mlmg_lang.parsing import syntax
+from mlmg_lang.parsing.build_syntax import name_from_token
+from mlmg_lang.parsing.tokens import Token
 from mlmg_lang.source import Span
+
+_QUOTED: Final = re.compile(r'"[^"\\\r\n]*+(?:\\[^\r\n][^"\\\r\n]*+)*+"')
 
 
 @dataclass(frozen=True, slots=True)
@@ -23,6 +29,14 @@ def document_links(analysis: Analysis) -> tuple[Link, ...]:
     named = made.gathered.used.named
     paths = (item.path for item in made.lines.all("defining") if isinstance(item, syntax.Use))
     return tuple(Link(made.places(path.span), named[path.span]) for path in paths if path.span in named)
+
+
+def paths_in(text: str) -> tuple[str, ...]:
+    """Return the paths of all files that a text may use, and what else stands in quotes; it is not read for that."""
+    if "use" not in text.lower():
+        return ()
+    quoted = (Token("STRING", one[0], Span(*one.span())) for one in _QUOTED.finditer(text))
+    return tuple(dict.fromkeys(name_from_token(token).text for token in quoted))
 
 
 def use_leading_to(analysis: Analysis, file: str) -> Span | None:

@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 from bisect import bisect_right
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 from typing import Final
 from unicodedata import normalize
@@ -66,6 +66,7 @@ class Occurrence:
     declares : whether it gets its meaning here.
     label : whether it says which parameter an argument is for.
     use : the use of a definition that it is the name of, with addresses.
+    broken : whether its statement could not be read, so that it only seems to stand for that.
     """
 
     span: Span
@@ -73,6 +74,7 @@ class Occurrence:
     declares: bool = False
     label: bool = False
     use: syntax.Reference | syntax.Call | None = None
+    broken: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -300,7 +302,7 @@ class _Reader:
             if token.type in NAMES:
                 span = Span(token.span.start + item.span.start, token.span.end + item.span.start)
                 name = name_from_token(token)
-                yield self._one(syntax.Name(name.text, name.quoted, name.sound, span), self._any(name))
+                yield replace(self._one(replace(name, span=span), self._any(name)), broken=True)
 
     def _any(self, name: syntax.Name) -> Symbol:
         if normal(name.text) in self.lets:

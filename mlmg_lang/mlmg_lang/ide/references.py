@@ -40,6 +40,12 @@ def references(
     return tuple(dict.fromkeys(places))
 
 
+def home_at(analysis: Analysis, offset: int) -> str | None:
+    """Return the name of the file that defines the name at an offset; None if no script does."""
+    found = occurrence_at(analysis, offset)
+    return None if found is None else _home(analysis, found.symbol) or None
+
+
 def everywhere(
     analysis: Analysis, symbol: Symbol, others: Iterable[Analysis] = ()
 ) -> Iterator[tuple[Analysis, Occurrence]]:

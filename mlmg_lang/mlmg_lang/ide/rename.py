@@ -5,7 +5,7 @@ A name is refused that means something already where the old one is used, so tha
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from mlmg_grammar import reserved_words
@@ -72,7 +72,11 @@ def _renameable(found: Occurrence | None) -> Refusal:
 
 
 def rename(
-    analysis: Analysis, offset: int, new: str, others: Sequence[Analysis] = ()
+    analysis: Analysis,
+    offset: int,
+    new: str,
+    others: Sequence[Analysis] = (),
+    seen: Container[str] | None = None,
 ) -> Mapping[str, tuple[Edit, ...]] | Refusal:
     """Return the edits, by file and in the order of its text, that give the name at an offset another.
 
@@ -80,6 +84,8 @@ def rename(
     ----------
     new : with or without quotes. It is written in quotes where it has to be.
     others : scripts that may use the same files, or this one.
+    seen : the names of the files that the person sees; None if that is all. In others nothing is edited that could not
+        be read.
     """
     found = occurrence_at(analysis, offset)
     if found is None or found.symbol.sort not in RENAMED:
@@ -89,9 +95,15 @@ def rename(
         return name if isinstance(name, Refusal) else {}
     places = list(everywhere(analysis, found.symbol, others))
     scripts = {id(script): script for script in (analysis, *(script for script, _ in places))}
-    clashes = (clash for script in scripts.values() for clash in _clashes(script, found.symbol, name))
-    clash = next(clashes, None)
-    return clash or _edits(places, found.symbol.sort, name)
+    refusals = (refusal for script in scripts.values() for refusal in _refusals(script, found.symbol, name, seen))
+    return next(refusals, None) or _edits(places, found.symbol.sort, name)
+
+
+def _refusals(script: Analysis, symbol: Symbol, name: str, seen: Container[str] | None) -> Iterator[Refusal]:
+    yield from _unread(script, symbol, seen)
+    is_seen = seen is None or script.source.name in seen
+    for clash in _clashes(script, symbol, name):
+        yield clash if is_seen else Refusal(f"{script.source.name}: {clash.why}")
 
 
 def _edits(places: Iterable[tuple[Analysis, Occurrence]], sort: Sort, name: str) -> dict[str, tuple[Edit, ...]]:
@@ -147,6 +159,16 @@ def _clashes(script: Analysis, symbol: Symbol, name: str) -> Iterator[Refusal]:
     else:
         yield from (_hidden(let, name) for let in lets.values() if _would_hide(let, symbol.name, name))
         yield from _meant_already(script, name)
+
+
+def _unread(script: Analysis, symbol: Symbol, seen: Container[str] | None) -> Iterator[Refusal]:
+    """Yield where something stands in a statement that could not be read, in a file that the person does not see."""
+    hint = Symbol(Sort.DEFINITION, symbol.owner) if symbol.sort is Sort.PARAMETER else symbol
+    for one in occurrences_of(script, hint):
+        file, _ = script.source.file(one.span.start)
+        if one.broken and seen is not None and file.name not in seen:
+            line, _ = script.source.position(one.span.start)
+            yield Refusal(f"`{hint.name}` stands in line {line} of {file.name}, which cannot be read: mend that first")
 
 
 def _in_library(script: Analysis, name: str) -> Iterator[Refusal]:

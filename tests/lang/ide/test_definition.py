@@ -7,7 +7,7 @@ import pytest
 
 from mlmg_lang.front_end import analyse_again
 from mlmg_lang.ide.definition import definition
-from mlmg_lang.ide.links import document_links, use_leading_to
+from mlmg_lang.ide.links import document_links, paths_in, use_leading_to
 from mlmg_lang.ide.occurrences import Place
 from mlmg_lang.source import Source, Span
 
@@ -143,3 +143,8 @@ def test_the_use_that_leads_to_a_file_is_known_be_it_by_way_of_others(marked: Ca
     found = {name: use_leading_to(analysis, f"{name}.ms") for name in (*files, "none")}
     said = {name: span and analysis.source.slice(span) for name, span in found.items()}
     assert said == {"fine": '"fine.ms"', "more": '"more.ms"', "deep": '"more.ms"', "none": None}
+
+
+def test_what_a_text_may_use_is_found_without_reading_it():
+    assert paths_in('use "a.ms"\nUSE "b \\"c\\".ms" # use "d.ms"\n"x y" "open\n') == ("a.ms", 'b "c".ms', "d.ms", "x y")
+    assert paths_in('"x y" for 2 sec\n') == ()

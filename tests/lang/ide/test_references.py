@@ -6,7 +6,7 @@ from typing import Any
 import pytest
 
 from mlmg_lang.front_end import analyse
-from mlmg_lang.ide.references import highlights, references
+from mlmg_lang.ide.references import highlights, home_at, references
 
 Marked = Callable[..., Any]
 
@@ -53,6 +53,16 @@ def test_other_scripts_are_asked_that_use_the_same_file(marked):
     foreign = marked("let HI = IDLE\nHI\n", name="foreign.ms").analysis
     places = references(one.analysis, one.offset, (same, foreign))
     assert [(place.file, place.span.start) for place in places] == [("main.ms", 11), ("g.ms", 4), ("other.ms", 16)]
+
+
+def test_the_file_is_known_that_defines_a_name(marked):
+    files = {"g": "let HI(x) = x"}
+    for text, home in (("¦HI(WALK)", "g.ms"), ("HI(WALK, ¦x = IDLE)", "g.ms"), ("let A = B\nlet ¦B = WALK", "main.ms")):
+        at = marked(f'use "g.ms"\n{text}', **files)
+        assert home_at(at.analysis, at.offset) == home
+    for text in ("¦WALK", "# ¦HI", "¦HM", 'use "¦g.ms"'):
+        at = marked(text, **files)
+        assert home_at(at.analysis, at.offset) is None
 
 
 def test_the_names_of_a_library_are_found_however_they_are_spelt(found):

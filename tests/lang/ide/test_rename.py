@@ -65,6 +65,25 @@ def test_other_scripts_that_use_the_file_are_edited_too_and_each_file_once(marke
     assert rename(one.analysis, one.offset, "BYE", (taken,)) == Refusal("there is a definition `BYE` already")
 
 
+@pytest.mark.parametrize("place", ["¦G(x, t = 1 sec)", "G(x, ¦t = 1 sec)"])
+def test_a_statement_that_cannot_be_read_is_not_edited_in_a_file_that_is_not_seen(marked, place):
+    at = marked(f"let {place} = x for t", name="g.ms")
+    text = at.analysis.source.text
+    user, fine = (
+        marked(f'use "g.ms"\n{said}\n', name=name, g=text).analysis
+        for name, said in (("user.ms", "G(WALK, t = = 2)"), ("fine.ms", "G(WALK, t = 2 sec); IDLE for for"))
+    )
+    refused = Refusal("`G` stands in line 2 of user.ms, which cannot be read: mend that first")
+    assert rename(at.analysis, at.offset, "H", (fine, user), {"g.ms"}) == refused
+    for others, seen in (((fine, user), None), ((fine, user), {"g.ms", "user.ms"}), ((fine,), {"g.ms"})):
+        edits = rename(at.analysis, at.offset, "H", others, seen)
+        assert not isinstance(edits, Refusal)
+        assert "fine.ms" in edits
+    taken = marked('use "g.ms"\nlet H = IDLE\n', name="taken.ms", g=text).analysis
+    said = rename(at.analysis, at.offset, "H", (taken,), {"g.ms"})
+    assert said == Refusal("taken.ms: there is a definition `H` already")
+
+
 @pytest.mark.parametrize(
     ("new", "written"),
     [
