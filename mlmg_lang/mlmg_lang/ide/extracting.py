@@ -1,44 +1,51 @@
-"""A part of a command -> a definition of its own, and its name where the part was."""
+"""A command or a part of one -> a definition of its own, and its name where that was."""
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass
-from itertools import count
+from itertools import count, takewhile
+from typing import Final
 
 from mlmg_lang.analysis import Analysis
 from mlmg_lang.ide.rewriting import Edit, commands, lasting
 from mlmg_lang.ide.touching import pieces_touching
 from mlmg_lang.parsing import syntax
-from mlmg_lang.parsing.structure import is_sub
-from mlmg_lang.source import Span
+from mlmg_lang.parsing.structure import group_of, is_sub
+from mlmg_lang.source import Source, Span
 from mlmg_lang.spelling import folded
 
 _NAME = "PART"
+_INDENTATION: Final = re.compile(r"[ \t]*")
+_COMMENT: Final = re.compile(r"[ \t]*#")
+_OF_THE_NEXT: Final = re.compile(r"[ \t]*#\s*mlmg\s*:\s*ignore\s*\[")
+"""A comment that asks for silence about the next statement."""
 
 
 @dataclass(frozen=True, slots=True)
 class Extraction:
-    """The edits that define a part of a command as a name."""
+    """The edits that define a command, or a part of one, as a name."""
 
     name: str
     edits: tuple[Edit, ...]
 
 
 def extraction(analysis: Analysis, within: Span) -> Extraction | None:
-    """Return what defines the part of a command that is selected; None if nothing is, or it cannot be defined.
+    """Return what defines the command or part of one that is selected; None if nothing is, or it cannot be defined.
 
-    The definition stands before the statement that the part is in, with its comments, at the top level.
+    The definition stands before the statement that this is in, with its comments, at the top level; but below the
+    comment at the head of the script.
     """
     selected = _without_spaces(analysis, within)
     if selected.start == selected.end:
         return None
     for piece, further in pieces_touching(analysis, Span(selected.start, selected.start)):  # a part is in one
         for command in commands(piece.items):
-            for part in _parts(command.motion):
-                at = Span(part.span.start + further, part.span.end + further)
-                if at == selected:
-                    return _extraction(analysis, part, at, piece.address + further)
+            for span, part in _parts(command, analysis):
+                if _without_spaces(analysis, Span(span.start + further, span.end + further)) == selected:
+                    first = next(token.span.start for token in piece.tokens if token.type not in ("COMMENT", "NEWLINE"))
+                    return _extraction(analysis, part, selected, first + further)
     return None
 
 
@@ -48,27 +55,78 @@ def _without_spaces(analysis: Analysis, within: Span) -> Span:
     return Span(start, start + len(text.strip()))
 
 
-def _extraction(analysis: Analysis, part: syntax.Motion, at: Span, before: int) -> Extraction | None:
-    if any(isinstance(node, syntax.Name) and is_sub(node) for node in syntax.walk(part)) or lasting(part, analysis):
+def _extraction(
+    analysis: Analysis, part: syntax.Command | syntax.Motion, at: Span, statement: int
+) -> Extraction | None:
+    is_whole = isinstance(part, syntax.Command)
+    has_sub = any(isinstance(node, syntax.Name) and is_sub(node) for node in syntax.walk(part))
+    if (has_sub and not is_whole) or lasting(part, analysis):
         return None  # `Sub` depends on what stands before it, and what lasts is a whole statement.
     text = analysis.source.text
     name = _fresh(analysis)
-    before += text.startswith("\ufeff", before)
+    before = _before(analysis.source, statement)
+    indentation = _INDENTATION.match(text, _line_start(analysis.source, statement))
+    assert indentation is not None, "there may be none"
     ending = "\r\n" if "\r\n" in text else "\n"
-    definition = Edit(Span(before, before), f"let {name} = {text[at.start : at.end]}{ending}")
-    return Extraction(name, (definition, Edit(at, name)))
+    definition = f"{indentation[0]}let {name} = {text[at.start : at.end]}{ending}"
+    return Extraction(name, (Edit(Span(before, before), definition), Edit(at, _apart(text, at, name))))
 
 
-def _parts(motion: syntax.Motion) -> Iterator[syntax.Motion]:
-    """Yield the parts of an expression that can be defined, outermost first: all but names, and what has a graph."""
+def _apart(text: str, at: Span, name: str) -> str:
+    """Return a name that is to stand at a place, with spaces where it would grow together with what is beside that."""
+    before, behind = text[at.start - 1 : at.start], text[at.end : at.end + 1]
+    return f"{' ' * _is_of_word(before)}{name}{' ' * _is_of_word(behind)}"
+
+
+def _is_of_word(sign: str) -> bool:
+    return sign.isalnum() or (sign != "" and sign in '"_-')
+
+
+def _before(source: Source, statement: int) -> int:
+    """Return where a definition stands that a statement needs."""
+    above = source.position(statement)[0] - 1
+    n_comments = _n_lines(source, above, _COMMENT)
+    if n_comments == above:  # Those at the head of a script are about all of it.
+        n_comments = _n_lines(source, above, _OF_THE_NEXT)
+    return _line_start(source, source.line_starts[above - n_comments])
+
+
+def _n_lines(source: Source, end: int, pattern: re.Pattern[str]) -> int:
+    """Return how many lines in a row, up to before a number, begin with a pattern."""
+    lines = takewhile(
+        lambda row: pattern.match(source.text, _line_start(source, source.line_starts[row])), reversed(range(end))
+    )
+    return sum(1 for _ in lines)
+
+
+def _line_start(source: Source, offset: int) -> int:
+    """Return where the line of an offset begins, behind the mark that a file may begin with."""
+    start = source.line_starts[source.position(offset)[0] - 1]
+    return start + source.text.startswith("\ufeff", start)
+
+
+def _parts(command: syntax.Command, analysis: Analysis) -> Iterator[tuple[Span, syntax.Command | syntax.Motion]]:
+    """Yield what can be defined of a command, each with its place, which may begin with spaces; outermost first."""
+    if command.span != command.motion.span:
+        yield command.span, command
+    yield from _motion_parts(command.motion, analysis)
+
+
+def _motion_parts(motion: syntax.Motion, analysis: Analysis) -> Iterator[tuple[Span, syntax.Motion]]:
+    """Yield the parts of an expression that can be defined: all but names, and single names that have a graph."""
     if not isinstance(motion, syntax.Reference):
-        yield motion
+        yield motion.span, motion
     match motion:
+        case syntax.Call(name):
+            group = group_of(motion)
+            if group is not None and analysis.made.gathered.definitions.find(name) is None:
+                yield Span(name.span.end, motion.span.end), group
+                yield from _motion_parts(group, analysis)
         case syntax.Group(inner) | syntax.Not(inner):
-            yield from _parts(inner)
+            yield from _motion_parts(inner, analysis)
         case syntax.And(operands) | syntax.Or(operands) | syntax.With(operands):
             for operand in operands:
-                yield from _parts(operand)
+                yield from _motion_parts(operand, analysis)
 
 
 def _fresh(analysis: Analysis) -> str:

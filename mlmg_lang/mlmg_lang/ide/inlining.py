@@ -2,18 +2,23 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from itertools import pairwise
 from operator import attrgetter
+from typing import Final
 
 from mlmg_lang.analysis import Analysis, InPieces
 from mlmg_lang.diagnostics import has_errors
 from mlmg_lang.ide.rewriting import Edit
 from mlmg_lang.ide.touching import pieces_touching
 from mlmg_lang.parsing import syntax
-from mlmg_lang.source import Source, Span
+from mlmg_lang.source import Span
 from mlmg_lang.spelling import normal
+
+_BEHIND: Final = re.compile(r"[ \t]*(?P<parts>;)?[ \t]*(?P<ends>#|\r\n|[\r\n]|\Z)?")
+"""What stands behind a statement: what parts it from the next, and what ends its line."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -89,7 +94,7 @@ def _of_all(analysis: Analysis, let: syntax.Let) -> Iterator[Inlining]:
             return
         at = use.node.span
         edits.append(Edit(Span(at.start + further, at.end + further), text))
-    removal = Edit(_line_of(made.source, made.now(let.span)), "")
+    removal = Edit(_with_separator(made.source.text, made.now(let.span)), "")
     if not edits or any(_overlap(one, other) for one, other in pairwise(_sorted(edits))):
         return
     yield Inlining(f"put in what `{let.name.text}` says everywhere, and take it out", _sorted([*edits, removal]))
@@ -112,16 +117,18 @@ def _overlap(one: Edit, other: Edit) -> bool:
     return one.span.start < other.span.end and other.span.start < one.span.end
 
 
-def _line_of(source: Source, span: Span) -> Span:
-    """Return a span with the rest of its lines if there are but spaces there."""
-    text, start, end = source.text, span.start, span.end
-    while start > 0 and text[start - 1] in " \t":
-        start -= 1
-    while end < len(text) and text[end] in " \t":
-        end += 1
-    if (start > 0 and text[start - 1] not in "\r\n") or (end < len(text) and text[end] not in "\r\n"):
+def _with_separator(text: str, span: Span) -> Span:
+    """Return the span of a statement with what parts it from those beside it: a `;`, or the line end if it is alone."""
+    behind = _BEHIND.match(text, span.end)
+    assert behind is not None, "there may be nothing behind it"
+    before = text[: span.start].rstrip(" \t")
+    if behind["ends"] is None:
+        return Span(span.start, behind.end() if behind["parts"] else span.end)
+    if before.endswith(";"):
+        return Span(len(before[:-1].rstrip(" \t")), max(behind.end("parts"), span.end))
+    if before and before[-1] not in "\r\n\ufeff":
         return span
-    return Span(start, end + (2 if text.startswith("\r\n", end) else int(end < len(text))))
+    return Span(span.start, behind.start("ends")) if behind["ends"] == "#" else Span(len(before), behind.end())
 
 
 # --- what is put in -------------------------------------------------------------------------------------
