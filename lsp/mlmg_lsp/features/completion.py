@@ -31,6 +31,7 @@ _KINDS: Final[Mapping[What, int]] = {
     What.GRAPH: types.CompletionItemKind.Class.value,
     What.DEFINITION: types.CompletionItemKind.Function.value,
     What.PARAMETER: types.CompletionItemKind.Variable.value,
+    What.ARGUMENT: types.CompletionItemKind.Field.value,
     What.WORD: types.CompletionItemKind.Keyword.value,
     What.UNIT: types.CompletionItemKind.Unit.value,
 }

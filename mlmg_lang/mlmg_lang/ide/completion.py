@@ -8,14 +8,17 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from itertools import chain, pairwise
+from itertools import chain
 from typing import Final
 
-from mlmg_lang.definitions.gather import Definitions
+from mlmg_lang.definitions.gather import Definitions, Kind
+from mlmg_lang.ide.arguments import argument_at, parameter_kinds
+from mlmg_lang.ide.combining import Partners
 from mlmg_lang.ide.cursor import Cursor, cursor_at
 from mlmg_lang.ide.offers import Completion, Offers, What, best_fit
 from mlmg_lang.ide.reach import Below, Reach, expression, left_of_with
 from mlmg_lang.ide.words import WORDS
+from mlmg_lang.parsing import syntax
 from mlmg_lang.parsing.lexical import script_name
 from mlmg_lang.parsing.line_parser import accepted
 from mlmg_lang.parsing.structure import SUB
@@ -81,7 +84,7 @@ def complete(tokens: Sequence[Token], offset: int, around: Surroundings) -> Offe
 def _in_quotes(found: Iterable[Completion]) -> Iterator[Completion]:
     """Yield what can stand in quotes, in quotes: names."""
     for one in found:
-        if one.what not in (What.WORD, What.UNIT) and one.name != SUB:
+        if one.what not in (What.WORD, What.UNIT, What.ARGUMENT) and one.name != SUB:
             text = one.text if one.text.startswith('"') else f'"{one.text}"'
             yield Completion(text, *one[1:])
 
@@ -118,7 +121,7 @@ class _Completer:
             if terminal in types or (terminal in continuing and terminal not in _STATEMENT_WORDS):
                 if terminal == "WITH" and not self._leaves_room(self.cursor.before or self.cursor.last):
                     continue
-                if terminal == "NOT" and not self._has_room(expression(self.cursor.before)):
+                if terminal == "NOT" and not self._takes_motion(expression(self.cursor.before)):
                     continue
                 yield Completion(terminal.lower(), terminal.lower(), What.WORD, says=says)
 
@@ -126,8 +129,11 @@ class _Completer:
         """Return whether a `with` behind a motion would leave a graph to speak of."""
         return self.reach.leaves_room(expression(motion))
 
-    def _has_room(self, own: Sequence[Token]) -> bool:
-        """Return whether there is a graph to speak of: one that the `with` before has left, if there is one."""
+    def _takes_motion(self, own: Sequence[Token]) -> bool:
+        """Return whether a motion can come next: on a graph that the `with` before has left, if there is one."""
+        argument = argument_at(own, self.around.definitions)
+        if argument is not None and not argument.takes_motion:
+            return False
         left = left_of_with(own)
         return left is None or self.reach.leaves_room(left)
 
@@ -142,7 +148,7 @@ class _Completer:
             case ["END"]:
                 yield self._ends()
             case [*_, "WAIT" | "FOR"]:
-                yield self._parameters_of(before)
+                yield self._parameters_of(before, Kind.DURATION)
             case _:
                 yield from self._motions(before)
 
@@ -156,31 +162,45 @@ class _Completer:
     def _motions(self, before: Sequence[Token]) -> Iterator[Iterable[Completion]]:
         """Yield what could begin or go on with a motion expression."""
         own = expression(before)
+        argument = argument_at(own, self.around.definitions)
+        if argument is not None:
+            yield map(_named, argument.nameable)
+            if argument.kind is Kind.DURATION:
+                yield self._parameters_of(before, Kind.DURATION)
+            if not argument.takes_motion:
+                return
         graph = self.reach.qualifier(own)
         if graph is not None:
-            yield self._on(graph, self.reach.above(graph, own))
+            is_right_behind = own[-1].type in NAMES
+            joined = own[:-1] if is_right_behind else own
+            partners = self.reach.partners(joined, (graph,), whole=not is_right_behind)
+            yield _among(partners, self._on(graph, above)) if (above := self.reach.above(graph, own)) else ()
             return
         if own and own[-1].type in NAMES | {"RIGHT"}:
             return  # A word comes next.
         left = left_of_with(own)
-        if left is None:
-            yield from self._anywhere(before, own)
+        if left is not None and not self.reach.leaves_room(left):
             return
-        if not self.reach.leaves_room(left):
-            return
-        rooms = self.reach.rooms_below(left)
+        rooms = None if left is None else self.reach.rooms_below(left)
+        graphs = self.around.names.all_levels() if rooms is None else tuple(graph for graph, _ in rooms)
+        partners = self.reach.partners(own, graphs, whole=False)
+        names = self._anywhere(before) if rooms is None else self._below(before, rooms)
+        yield from (_among(partners, found) for found in names)
+
+    def _below(self, before: Sequence[Token], rooms: Sequence[Below]) -> Iterator[Iterable[Completion]]:
+        """Yield what may stand behind a `with`."""
         yield from self._unqualified(rooms, set())
-        yield self._parameters_of(before)
-        yield self._definitions(own)
+        yield self._parameters_of(before, Kind.MOTION)
+        yield self._definitions(before)
         yield (_graph(graph, _part_says(graph, self.around.names)) for graph, _ in rooms)
         yield (_graph(SUB, ": ".join(("the part below", *[graph for graph, _ in rooms[:1]]))),)
 
-    def _anywhere(self, before: Sequence[Token], own: Sequence[Token]) -> Iterator[Iterable[Completion]]:
+    def _anywhere(self, before: Sequence[Token]) -> Iterator[Iterable[Completion]]:
         """Yield what a command may begin with: what the whole body does first, then what parts may do as it is."""
         names = self.around.names
         yield self._on(names.root, self.reach.playing(names.root))
-        yield self._parameters_of(before)
-        yield self._definitions(own)
+        yield self._parameters_of(before, Kind.MOTION)
+        yield self._definitions(before)
         allowed = [graph for graph in names.all_levels()[1:] if self.reach.playing(graph) & names.motion_set(graph)]
         yield (_graph(graph, _part_says(graph, names)) for graph in allowed)
         rooms = [(graph, self.reach.playing(graph)) for graph in allowed]
@@ -201,15 +221,32 @@ class _Completer:
         found, self.fits[graph] = self.around.offers.on(graph, above)
         return found
 
-    def _parameters_of(self, before: Sequence[Token]) -> Iterator[Completion]:
-        return (Completion(script_name(name), name, What.PARAMETER) for name in _parameters(before))
+    def _parameters_of(self, before: Sequence[Token], kind: Kind) -> Iterator[Completion]:
+        """Yield the parameters of the definition that is being written, of a kind or of one that is not known."""
+        for name, known in parameter_kinds(before, self.around.definitions).items():
+            if known in (None, kind):
+                yield Completion(script_name(name), name, What.PARAMETER)
 
-    def _definitions(self, own: Sequence[Token]) -> Iterator[Completion]:
-        for number, (name, let) in enumerate(self.around.definitions.lets.items()):
+    def _definitions(self, before: Sequence[Token]) -> Iterator[Completion]:
+        definitions, own = self.around.definitions, expression(before)
+        for number, (name, let) in enumerate(definitions.lets.items()):
+            signature = definitions.signatures.get(name)
+            if before and signature is not None and signature.lasts:
+                continue  # It is a whole statement.
             if number < _MOST_TRIED and not self.reach.takes(own, name):
                 continue
             says = "defined here" if let.parameters is None else f"takes {len(let.parameters)}"
             yield Completion(script_name(name), name, What.DEFINITION, says=says)
+
+
+def _named(parameter: syntax.Parameter) -> Completion:
+    text = f"{parameter.name.text} = "
+    return Completion(text, text, What.ARGUMENT, says="")
+
+
+def _among(partners: Partners | None, found: Iterable[Completion]) -> Iterable[Completion]:
+    """Return what is no name of a graph, or can stand with what is left of an `and`."""
+    return found if partners is None else [one for one in found if one.graph is None or partners.has(one)]
 
 
 def _graph(graph: str, says: str) -> Completion:
@@ -218,16 +255,3 @@ def _graph(graph: str, says: str) -> Completion:
 
 def _part_says(graph: str, names: Names) -> str:
     return f"a part of the body: {len(names.motions(graph))} motions"
-
-
-def _parameters(before: Sequence[Token]) -> Iterable[str]:
-    """Return the parameters of the definition that tokens are of."""
-    if len(before) < 3 or [token.type for token in (before[0], before[2])] != ["LET", "LEFT"]:
-        return ()
-    inside: list[str] = []
-    for token, after in pairwise(before[2:]):
-        if token.type in ("LEFT", "COMMA") and after.type in ("NAME", "UNIT"):
-            inside.append(after.text)
-        if token.type == "RIGHT":
-            break
-    return inside

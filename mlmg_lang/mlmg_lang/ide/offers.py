@@ -20,6 +20,7 @@ class What(StrEnum):
     GRAPH = "graph"
     DEFINITION = "definition"
     PARAMETER = "parameter"
+    ARGUMENT = "argument"
     WORD = "word"
     UNIT = "unit"
 

@@ -8,16 +8,18 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
-from typing import TypeAlias
+from typing import Final, TypeAlias
 
 from mlmg_lang.definitions.expand import Expander
 from mlmg_lang.definitions.gather import Definitions
 from mlmg_lang.diagnostics import Diagnostic
+from mlmg_lang.ide.arguments import open_parentheses
+from mlmg_lang.ide.combining import Partners, is_inner, left_of_and, partners
 from mlmg_lang.parsing import syntax
 from mlmg_lang.parsing.build_syntax import name_from_token
 from mlmg_lang.parsing.lexical import script_name
 from mlmg_lang.parsing.line_parser import read
-from mlmg_lang.parsing.structure import SUB, is_sub
+from mlmg_lang.parsing.structure import SUB, is_sub, motion_mistakes
 from mlmg_lang.parsing.tokens import NAMES, Token
 from mlmg_lang.planning.finding.search import Ways
 from mlmg_lang.planning.flow import State
@@ -29,6 +31,8 @@ from mlmg_lang.source import Source, Span
 
 Below: TypeAlias = tuple[str, Collection[str]]
 """A graph that could be named, and what may be played above it then."""
+_ENDS_PART: Final = frozenset({"LEFT", "COMMA", "EQUALS"})
+"""What begins a group, or an argument of a definition's use."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,10 +62,11 @@ class Reach:
         return None
 
     def above(self, graph: str, own: Sequence[Token]) -> Collection[str]:
-        """Return what may be played above a graph that is named in an expression."""
+        """Return what may be played above a graph that is named in an expression; nothing if it cannot be there."""
         left = left_of_with(own)
-        rooms = [] if left is None else self.rooms_below(left)
-        return next((above for room, above in rooms if room == graph), self.playing(graph))
+        if left is None:
+            return self.playing(graph)
+        return next((above for room, above in self.rooms_below(left) if room == graph), ())
 
     def playing(self, graph: str) -> frozenset[str]:
         """Return what may drive the graph above one; of the root, what may drive it."""
@@ -83,6 +88,19 @@ class Reach:
             for graph in names.all_levels()
             if (parent := names.parent(graph)) is not None
         ]
+
+    def partners(self, own: Sequence[Token], graphs: Sequence[str], *, whole: bool) -> Partners | None:
+        """Return what can stand behind an expression that ends with `and`; None if nothing is known of that.
+
+        Parameters
+        ----------
+        graphs : that may be named there. whole : whether what `and` joins has to be on one of them.
+        """
+        left = left_of_and(own)
+        node = self._said(left) if left else None
+        if not isinstance(node, syntax.Command) or any(isinstance(part, syntax.With) for part in syntax.walk(node)):
+            return None
+        return partners(node.motion, graphs, self.names, whole=whole or is_inner(own))
 
     def takes(self, own: Sequence[Token], definition: str) -> bool:
         """Return whether an expression could go on with a definition; what it gets for its parameters is not known."""
@@ -119,16 +137,22 @@ class Reach:
 
     def _ways(self, motion: Sequence[Token]) -> Ways | None:
         """Return all that a finished part of a command can do; None if some of it means nothing yet."""
+        said = self._said(motion)
+        if said is None:
+            return None
+        if not isinstance(said, syntax.Command) or any(motion_mistakes(said.motion)):
+            return ()
+        ways = select(said.motion, self.names, Source(""), explains=False)
+        return () if isinstance(ways, Diagnostic) else ways
+
+    def _said(self, motion: Sequence[Token]) -> syntax.Item | None:
+        """Return a finished part of a command, with what is defined put in if that can be; None if it is not known."""
         node = read(Source(""), tuple(motion))
         if not isinstance(node, syntax.Command):
             return None
         (expanded,) = Expander(self.definitions).body((node,))
-        if not isinstance(expanded, syntax.Command):
-            return ()
-        if not all(map(self._is_known, syntax.walk(expanded))):
-            return None
-        ways = select(expanded.motion, self.names, Source(""), explains=False)
-        return () if isinstance(ways, Diagnostic) else ways
+        is_known = not isinstance(expanded, syntax.Command) or all(map(self._is_known, syntax.walk(expanded)))
+        return expanded if is_known else None
 
     def _is_known(self, node: syntax.Node) -> bool:
         """Return whether part of an expression in which definitions have been put in is no name without a meaning."""
@@ -166,8 +190,11 @@ def left_of_with(own: Sequence[Token]) -> Sequence[Token] | None:
         kind = own[at].type
         if kind == "RIGHT":
             depth += 1
-        elif kind == "LEFT" and depth == 0:
-            return own[at + 1 : with_at] if with_at is not None else left_of_with(own[:at])
+        elif kind in _ENDS_PART and depth == 0:
+            if with_at is not None:
+                return own[at + 1 : with_at]
+            around = own[: next(iter(open_parentheses(own[: at + 1])), 0)]
+            return left_of_with(around)
         elif kind == "LEFT":
             depth -= 1
         elif kind == "WITH" and depth == 0 and with_at is None:

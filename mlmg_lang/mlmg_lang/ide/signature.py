@@ -8,11 +8,11 @@ from dataclasses import dataclass
 
 from mlmg_lang.analysis import Analysis, InPieces
 from mlmg_lang.definitions.gather import Signature
+from mlmg_lang.ide.arguments import argument_name, arguments, open_parentheses, used_definition
 from mlmg_lang.parsing import syntax
-from mlmg_lang.parsing.build_syntax import name_from_token
 from mlmg_lang.parsing.lexical import script_name
 from mlmg_lang.parsing.tokenize import tokenize
-from mlmg_lang.parsing.tokens import ENDS_PARENTHESES, NAMES, Token
+from mlmg_lang.parsing.tokens import Token
 from mlmg_lang.source import Source
 from mlmg_lang.spelling import normal
 
@@ -53,8 +53,8 @@ def signature_help(analysis: Analysis, offset: int) -> SignatureHelp | None:
     made = analysis.made
     before = _tokens_before(analysis, offset)
     definitions = made.gathered.definitions
-    for opening in _open(before):
-        let = _used(before[:opening], made)
+    for opening in open_parentheses(before):
+        let = used_definition(before[:opening], definitions)
         if let is not None and let.parameters is not None:
             label, parameters = described(let, definitions.signatures.get(normal(let.name.text)), made)
             return SignatureHelp(label, parameters, _active(before[opening + 1 :], parameters))
@@ -97,38 +97,10 @@ def _tokens_before(analysis: Analysis, offset: int) -> Sequence[Token]:
     return line.tokens[: bisect_left(line.tokens, address, key=lambda token: token.span.start)]
 
 
-def _open(tokens: Sequence[Token]) -> list[int]:
-    """Return the parentheses that are open behind some tokens, the innermost first."""
-    found: list[int] = []
-    depth = 0
-    for at in range(len(tokens) - 1, -1, -1):
-        kind = tokens[at].type
-        if kind in ENDS_PARENTHESES:
-            break
-        if kind == "LEFT" and depth == 0:
-            found.append(at)
-        depth += (kind == "RIGHT") - (kind == "LEFT" and depth > 0)
-    return found
-
-
-def _used(before: Sequence[Token], made: InPieces) -> syntax.Let | None:
-    """Return the definition whose name stands last, unless it is being defined there."""
-    if not before or before[-1].type not in NAMES or (len(before) > 1 and before[-2].type == "LET"):
-        return None
-    return made.gathered.definitions.find(name_from_token(before[-1]))
-
-
 def _active(inside: Sequence[Token], parameters: Sequence[ParameterHelp]) -> int | None:
     """Return the number of the parameter that is being written, from what stands behind its parenthesis."""
-    depth = number = 0
-    argument: list[Token] = []
-    for token in inside:
-        depth += (token.type == "LEFT") - (token.type == "RIGHT")
-        if token.type == "COMMA" and depth == 0:
-            number, argument = number + 1, []
-        elif token.type not in ("COMMENT", "NEWLINE"):
-            argument.append(token)
-    if len(argument) > 1 and argument[0].type in NAMES and argument[1].type == "EQUALS":
-        name = normal(name_from_token(argument[0]).text)
+    *before, argument = arguments(inside)
+    name = argument_name(argument)
+    if name is not None:
         return next((at for at, one in enumerate(parameters) if normal(one.name) == name), None)
-    return number if number < len(parameters) else None
+    return len(before) if len(before) < len(parameters) else None

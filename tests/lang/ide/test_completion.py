@@ -29,7 +29,7 @@ def test_a_command_may_begin_with_what_the_whole_body_does_then_with_parts_then_
 def test_after_a_graph_come_only_its_tags_and_motions(texts: Texts) -> None:
     assert texts("WALK with Upper-Body ¦") == UPPER
     assert texts("Upper-Body ¦") == UPPER
-    assert texts("Upper-Body (TALK and ¦") == [*UPPER, "not"]
+    assert texts("Upper-Body (TALK or ¦") == [*UPPER, "not"]
     assert texts("Upper-Body (not ¦") == [*UPPER, "not"]
 
 
@@ -80,8 +80,79 @@ def test_nothing_is_offered_where_a_new_name_is_made_or_in_a_comment(texts: Text
 def test_definitions_and_parameters_are_offered(texts: Texts) -> None:
     assert "GREET" in texts("¦", defined="let GREET(x) = x with Upper-Body TALK")
     found = texts("let G(who, t = 2 sec) = ¦")
-    assert {"who", "t", "WALK"} <= set(found)
+    assert {"who", "WALK"} <= set(found)
     assert set(texts("let G(who, t = 2 sec) = WALK for ¦")) == {"who", "t"}
+
+
+@pytest.mark.parametrize(
+    ("text", "offered"),
+    [
+        ("let G(x, t = 2 sec) = ¦", {"x"}),
+        ("let G(x, y = WALK) = x for ¦", set()),
+        ("let G(x, t) = x for ¦", {"t"}),
+        ("let G(x, t) = x with ¦", {"x", "t"}),
+        ("let G(x, s, t) = H(x, t = s) with ¦", {"x", "t"}),
+        ("let G(x, s, t) = H(x, ¦", {"s", "t", "t = "}),
+        ("let G(x, t = ¦", set()),
+    ],
+)
+def test_parameters_are_offered_where_what_they_stand_for_may_stand(
+    text: str, offered: set[str], offers: Offers
+) -> None:
+    found = offers(text, defined="let H(x, t = 2 sec) = x for t")
+    assert {one.text for one in found if one.what in (What.PARAMETER, What.ARGUMENT)} == offered
+
+
+@pytest.mark.parametrize(
+    ("text", "names", "takes_motion"),
+    [
+        ("H(¦", ["x = ", "t = "], True),
+        ("H(WALK, ¦", ["t = "], False),
+        ("H(WALK, t = ¦", [], False),
+        ("H(x = ¦", [], True),
+        ("H(t = 2 sec, ¦", ["x = "], False),
+        ("H(WALK, 2 sec, ¦", [], False),
+        ("H((¦", [], True),
+        ("H(WALK or ¦", [], True),
+        ("H(WALK with Upper-Body TALK, ¦", ["t = "], False),
+        ("WALK with M(TALK, ¦", ["y = "], True),
+        ("Upper-Body (¦", [], True),
+    ],
+)
+def test_between_the_parentheses_of_a_definition_its_parameters_are_named_and_what_they_take_is_offered(
+    text: str, names: list[str], takes_motion: bool, offers: Offers
+) -> None:
+    found = offers(text, defined="let H(x, t = 2 sec) = x for t\nlet M(x, y = TALK) = x or y")
+    assert [one.text for one in found if one.what is What.ARGUMENT] == names
+    assert (not {What.TAG, What.MOTION}.isdisjoint(one.what for one in found)) == takes_motion
+    assert ("not" in [one.text for one in found]) == takes_motion
+
+
+def test_what_says_how_long_is_offered_as_a_whole_statement_alone(texts: Texts) -> None:
+    defined = "let G(x, t = 2 sec) = x with Upper-Body TALK for t\nlet ONCE = WALK once\nlet H(x) = x"
+    for text in ("¦", "IDLE\n¦", "repeat 2 {\n¦"):
+        assert {"G", "ONCE", "H"} <= set(texts(text, defined=defined))
+    for text in ("WALK with ¦", "not ¦", "(WALK or ¦", "WALK and ¦", "(¦", "let B = ¦", "H(¦", "IDLE\nWALK or ¦"):
+        assert {"G", "ONCE", "H"} & set(texts(text, defined=defined)) == {"H"}
+
+
+def test_behind_a_graph_that_cannot_be_there_nothing_is_offered(texts: Texts, left_hand: Catalog) -> None:
+    assert texts("Idle_02 with Upper-Body ¦") == []
+    assert texts("WALK with Upper-Body TALK with Upper-Body ¦", left_hand) == []
+    assert texts("WALK with Full-Body ¦") == []
+
+
+def test_behind_and_stands_what_has_something_in_common_or_can_run_at_the_same_time(texts: Texts) -> None:
+    defined = "let PAIR = WALK with Upper-Body TALK\nlet SET = Walk_01 or TALK\nlet NOTHING = Idle_02"
+    upper = ["Music", "TALK", "Talk_01", "Talk_02", "SWING_HAND"]
+    assert not {"Idle_02", "PAIR", "NOTHING"} & set(texts("WALK and ¦", defined=defined))
+    assert {"Walk_01", "WAVE_HAND", "SET", *upper} <= set(texts("WALK and ¦", defined=defined))
+    assert {"Idle_01", "IDLE", "Idle_02"} & set(texts("Idle_02 and ¦")) == {"IDLE", "Idle_02"}
+    assert texts("Upper-Body (TALK and ¦") == ["IDLE", "TALK", "Talk_01", "Talk_02", "not"]
+    assert texts("WALK with Upper-Body (TALK and ¦") == ["IDLE", "TALK", "Talk_01", "Talk_02", "not"]
+    assert "Idle_02" in texts("WALK and not ¦")
+    assert "Idle_02" in texts("WALK or ¦")
+    assert {"for", "once", "and", "or"} <= set(texts("WALK and PAIR ¦", defined=defined))
 
 
 DEFINED = """
@@ -178,7 +249,7 @@ def test_a_name_that_begins_with_a_digit_is_offered_in_quotes_where_a_motion_may
     clips = catalog({"Body": {"14_02": (), "14_04": ()}, "Arm": {"14_02": ()}}, {"Arm": "Body"}, start="14_02")
     for written in ("14¦", "14_0¦", "let X = 14_0¦", "choose { 3: 14_0¦", '"14_04" or not 14_0¦'):
         assert texts(written, clips, playing="14_02")[:1] == ['"14_02"']
-    assert texts('"14_04" with Arm 14_¦', clips, playing="14_02")[:1] == ['"14_02"']
+    assert texts('"14_02" with Arm 14_¦', clips, playing="14_02")[:1] == ['"14_02"']
     assert texts('"14_02" for 14¦', clips, playing="14_02") == ["sec", "ms", "min", "frames", "cycles"]
     assert texts("repeat 14¦", clips, playing="14_02") == []
 
@@ -251,6 +322,8 @@ def test_whatever_is_offered_for_a_finished_motion_is_understood(texts: Texts, l
         "Upper-Body ¦",
         "WALK with Upper-Body TALK with ¦",
         "IDLE or ¦",
+        *("WALK and ¦", "Idle_02 and ¦", "SWING_HAND and ¦", "WALK and IDLE or WALK and ¦", "Upper-Body TALK and ¦"),
+        *("WALK with TALK and ¦", "TALK and IDLE and ¦", "WALK and Upper-Body ¦"),
     ):
         for one in texts(text, left_hand):
             whole = text.replace("¦", one)

@@ -1,0 +1,107 @@
+"""What stands left of an `and` -> the names that can stand right of it.
+
+They have a motion in common with it on some graph, or can be shared out with it over two; see `planning.finding`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+from mlmg_lang.diagnostics import Diagnostic
+from mlmg_lang.ide.offers import Completion
+from mlmg_lang.parsing import syntax
+from mlmg_lang.parsing.tokens import Token
+from mlmg_lang.planning.finding.search import Search, is_fixed
+from mlmg_lang.planning.finding.sets import motions_on
+from mlmg_lang.planning.names import Names
+from mlmg_lang.planning.nothing import Room
+from mlmg_lang.source import Source
+
+_ENDS_AND = frozenset({"WITH", "OR", "COMMA", "EQUALS"})
+
+
+@dataclass(frozen=True, slots=True)
+class Partners:
+    """What can stand right of an `and`.
+
+    Attributes
+    ----------
+    motions : by graph, those of which a name needs one there.
+    """
+
+    names: Names
+    motions: Mapping[str, Collection[str]]
+
+    def has(self, one: Completion) -> bool:
+        """Return whether a name of a graph can, there or, as it is written without the graph's name, on another."""
+        own = self.motions.get(one.graph or "", frozenset())
+        if any(motion in own for motion in one.motions):
+            return True
+        for graph, motions in self.motions.items():
+            match = self.names.find_unqualified(graph, one.name) if graph != one.graph else None
+            if match is not None and any(motion in motions for motion in match.entry.motions):
+                return True
+        return False
+
+
+def partners(left: syntax.Motion, graphs: Sequence[str], names: Names, *, whole: bool) -> Partners | None:
+    """Return what can stand right of an `and`; None if nobody knows, as what stands left of it is nothing.
+
+    Parameters
+    ----------
+    left : a set of motions, whose names all mean something.
+    graphs : that the two can be on.
+    whole : whether both have to be on the same.
+    """
+    meant = Search(names, Source(""), ()).graphs(left, Room())
+    if isinstance(meant, Diagnostic):
+        return None
+    fixed = is_fixed(left)
+    on = {graph: frozenset(motions_on(graph, left, names, fixed).motions) for graph in graphs if graph in meant}
+    if not any(on.values()):
+        return None
+    fitting = {graph: frozenset(on.get(graph, ())) for graph in graphs}
+    if not whole:
+        for graph in graphs:
+            fitting[graph] = fitting[graph].union(*_shared(graph, on, names))
+    return Partners(names, fitting)
+
+
+def _shared(graph: str, on: Mapping[str, Collection[str]], names: Names) -> Iterator[Collection[str]]:
+    """Yield the motions of a graph that can run at the same time as some of other graphs, by rule 1."""
+    for other, motions in on.items():
+        if not motions or other == graph:
+            continue
+        if graph in names.ancestors(other):
+            yield names.motion_set(other)
+        elif other not in names.ancestors(graph) or not names.motion_set(graph).isdisjoint(motions):
+            yield names.motion_set(graph)
+
+
+def left_of_and(own: Sequence[Token]) -> Sequence[Token]:
+    """Return what stands left of the `and` that tokens end with, without what that does not join; else nothing."""
+    if not own or own[-1].type != "AND":
+        return ()
+    depth = 0
+    for at in range(len(own) - 2, -1, -1):
+        depth += (own[at].type == "RIGHT") - (own[at].type == "LEFT")
+        if depth < 0 or (depth == 0 and own[at].type in _ENDS_AND):
+            return own[at + 1 : -1]
+    return own[:-1]
+
+
+def is_inner(own: Sequence[Token]) -> bool:
+    """Return whether what comes next stands in a set of motions that cannot be shared out: in an `or` or a `not`."""
+    depth = 0
+    for at in range(len(own) - 1, -1, -1):
+        kind = own[at].type
+        if kind == "RIGHT":
+            depth += 1
+        elif kind == "LEFT" and depth:
+            depth -= 1
+        elif (kind == "OR" and not depth) or (kind == "LEFT" and at and own[at - 1].type == "NOT"):
+            return True
+        elif kind in _ENDS_AND and not depth:
+            return False
+    return False
