@@ -198,7 +198,7 @@ class Documents:
                 await document.found.wait()
         document.begun = True
         try:
-            analysis = await self._read(document)
+            analysis = await self._read_with_files(document)
         except Exception as error:
             ready.set_exception(error)
             raise
@@ -212,6 +212,16 @@ class Documents:
         if is_longer:
             self._is_whole()
         await off_loop(lambda: analysis.ready)
+
+    async def _read_with_files(self, document: Document) -> Analysis:
+        """Return the analysis of a text, in which no file is other than it is open."""
+        before, analysis = document.analysis, await self._read(document)
+        # Where a file changes, who has used it is read again; but not who is reading it for the first time.
+        if before is None or before.source.used != analysis.source.used:
+            while self._is_outdated(analysis):
+                document.stale = True
+                analysis = await self._read(document)
+        return analysis
 
     async def _read(self, document: Document) -> Analysis:
         """Return the analysis of a text; of a long one that is new, after ever longer beginnings of it."""
@@ -266,13 +276,26 @@ class Documents:
         again = partial(analyse_again, before, source)
         return again if document.n_read is None else undisturbed()(again)
 
-    def users(self, path: Path) -> Iterator[Document]:
-        """Yield the open texts that use a file."""
+    def users(self, path: Path) -> list[Document]:
+        """Return the open texts that use a file."""
+        return list(dict.fromkeys(user for user, _ in self._uses(path)))
+
+    def outdated_users(self, path: Path) -> list[Document]:
+        """Return the open texts that use a file and have read another text of it than the one that is open."""
+        text = self.text_of(str(path))
+        return list(dict.fromkeys(user for user, file in self._uses(path) if file.text != text))
+
+    def _uses(self, path: Path) -> Iterator[tuple[Document, Source]]:
+        """Yield the open texts that use a file, each with what it has read of it."""
         real = os.path.realpath(path)
         for document in self.all():
-            used = () if document.analysis is None else document.analysis.source.used
-            if any(os.path.realpath(file.name) == real for file in used):
-                yield document
+            for file in () if document.analysis is None else document.analysis.source.used:
+                if os.path.realpath(file.name) == real:
+                    yield document, file
+
+    def _is_outdated(self, analysis: Analysis) -> bool:
+        """Return whether a text has read another text of a file than the one that is open."""
+        return any(self.text_of(file.name) not in (None, file.text) for file in analysis.source.used)
 
     def text_of(self, path: str) -> str | None:
         """Return the text of a file that is open, as it stands in the client."""

@@ -110,10 +110,12 @@ class ClientSession:
         return users
 
     def opened(self, params: types.DidOpenTextDocumentParams) -> None:
-        """Take in a text."""
+        """Take in a text, and look again at those that use it if it is another than what they have read."""
         document = self.documents.open(params.text_document)
         self._telling.opened(document.name, document.uri)
         self._finder.look(document)
+        if document.path is not None:
+            self._look_again(self.documents.outdated_users(document.path))
 
     def changed(self, params: types.DidChangeTextDocumentParams) -> None:
         """Edit a text, and look again at those that use it."""
@@ -201,7 +203,9 @@ class ClientSession:
 
     def _used_changed(self, path: Path) -> None:
         """Look again at the texts that use a file."""
-        users = list(self.documents.users(path))
+        self._look_again(self.documents.users(path))
+
+    def _look_again(self, users: list[Document]) -> None:
         for document in users:
             self.documents.analyse(document, afresh=True)
         if users:

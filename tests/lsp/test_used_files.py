@@ -1,6 +1,19 @@
 """What is wrong in a file that a script uses is told in that file too."""
 
+import asyncio
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
 import pytest
+from lsprotocol import types
+
+from mlmg_lang.definitions.gather import Files
+from mlmg_lang.diagnostics import Diagnostic
+from mlmg_lang.script_files import used_files
+from mlmg_lang.source import Source
+from mlmg_lsp.documents import Documents, OpenFiles
+from mlmg_lsp.open_text import Document, Snapshot
 
 PUSHED = {"textDocument": {"publishDiagnostics": {"relatedInformation": True}}}
 PULLING = {
@@ -103,3 +116,70 @@ def test_what_is_asked_of_all_scripts_waits_for_those_that_are_read(start, tmp_p
     start_of_text = {"line": 0, "character": 0}
     client.edit(used.as_uri(), 2, {"range": {"start": start_of_text, "end": start_of_text}, "text": " "})
     assert n_found() == 1501
+
+
+def test_a_used_file_that_is_opened_with_another_text_counts_as_it_stands_there(start, tmp_path, used):
+    used.write_text(RIGHT, encoding="utf-8")
+    client, user = begun(start, PUSHED), (tmp_path / "user.ms").as_uri()
+    client.open(user, 'use "moves/used.ms"\nstroll\n')
+    assert client.diagnostics(user) == []
+    client.open(used.as_uri(), f"# 1\n# 2\n{RIGHT}")
+    assert client.diagnostics(user) == []
+    (place,) = client.ask_at("definition", user, 1, 1)
+    assert (place["uri"], place["range"]["start"]["line"]) == (used.as_uri(), 2)
+    client.notify("textDocument/didClose", {"textDocument": {"uri": used.as_uri()}})
+    assert client.diagnostics(user) == []
+    client.open(used.as_uri(), "let amble = WALK\n")
+    assert [one["code"] for one in client.diagnostics(user) if one["severity"] == 1] == ["MS021"]
+
+
+def test_a_file_that_is_opened_while_it_is_read_for_the_first_time_counts_as_it_stands_there(tmp_path, used):
+    used.write_text("", encoding="utf-8")
+
+    @dataclass
+    class Opening:
+        """Finds files, and has the used one opened as soon as it has been read."""
+
+        files: Files
+        opened: Callable[[], object]
+
+        def find(self, path: str, user: str) -> tuple[Source, tuple[Diagnostic, ...]] | str:
+            found = self.files.find(path, user)
+            self.opened()
+            return found
+
+    async def lets() -> list[str]:
+        loop = asyncio.get_running_loop()
+
+        async def opened(path: Path, text: str) -> None:
+            if documents.get(path.as_uri()) is None:
+                documents.open(types.TextDocumentItem(path.as_uri(), "motion-script", 1, text)).found.set()
+
+        def files(document: Document, text_of: Callable[[str], str | None]) -> Files:
+            found = OpenFiles(used_files(tmp_path / "user.ms"), text_of)
+            return Opening(found, lambda: asyncio.run_coroutine_threadsafe(opened(used, RIGHT), loop).result())
+
+        documents = Documents(files, told, lambda: None, lambda _: None, lambda: None)
+        await opened(tmp_path / "user.ms", 'use "moves/used.ms"\nstroll\n')
+        snapshot = await documents.snapshot((tmp_path / "user.ms").as_uri())
+        documents.close_all()
+        return list(snapshot.analysis.definitions.lets)
+
+    async def told(snapshot: Snapshot) -> None:
+        pass
+
+    assert asyncio.run(lets()) == ["stroll"]
+
+
+def test_a_used_file_that_is_opened_as_it_is_changes_nothing(start, tmp_path, used):
+    used.write_text(RIGHT, encoding="utf-8")
+    client, user = begun(start, PUSHED), (tmp_path / "user.ms").as_uri()
+    client.open(user, 'use "moves/used.ms"\nstroll\n')
+    client.diagnostics(user)
+    client.open(used.as_uri(), RIGHT)
+    client.diagnostics(used.as_uri())
+    client.ask_at("hover", user, 1, 1)
+    client.ask("shutdown")
+    client.notify("exit")
+    told = [one["params"]["uri"] for one in client.rest() if one.get("method") == "textDocument/publishDiagnostics"]
+    assert user not in told
