@@ -101,8 +101,9 @@ class Workspace:
         """Return what finds the files that a text uses; `text_of` has the texts of those that are open."""
         from mlmg_lang.script_files import used_files
 
-        found = used_files(self.place_of(document), self.settings.allowed)
-        return OpenFiles(replace(found, script=document.name), text_of)
+        place = self.place_of(document)
+        found = used_files(place, self.settings.allowed)
+        return OpenFiles(replace(found, script=document.name, place=place), text_of)
 
     def files_on_disk(self, script: Path) -> Files:
         """Return what finds the files that a script uses which is not open."""

@@ -54,14 +54,17 @@ class UsedFiles:
     ----------
     script : the script's name, which its own file keeps.
     folders : absolute, without links.
+    place : where a script stands whose name does not say so.
     """
 
     script: str
     folders: tuple[Path, ...]
+    place: Path | None = None
 
     def find(self, path: str, user: str) -> tuple[Source, tuple[Diagnostic, ...]] | str:
         """Return a file, and what is wrong with its bytes; or, in words, why it cannot be used."""
-        name = os.path.normpath(Path(user).parent / path)
+        place = self.place if self.place is not None and user == self.script else Path(user)
+        name = os.path.normpath(place.parent / path)
         try:
             real = Path(os.path.realpath(name))
         except ValueError:  # there is a NUL in it, or half a character

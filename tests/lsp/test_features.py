@@ -87,6 +87,31 @@ def test_words_of_the_language_are_snippets_where_the_client_fills_them_in(clien
     assert repeat["textEdit"]["newText"].startswith("repeat ${1:2} {")
 
 
+def test_a_definition_has_places_for_what_has_to_be_given_to_it(client):
+    opened(
+        client, 'let two(x, t, y = WALK) = x or y for t\nlet "a $}"(x) = x\nlet none(t = 2 sec) = WALK for t\n\ntwo('
+    )
+    found = {one["label"]: one for one in client.ask_at("completion", URI, 3, 0)["items"]}
+    texts = {name: found[name]["textEdit"]["newText"] for name in ("two", "a $}", "none")}
+    assert texts == {"two": "two(${1:x}, ${2:t})$0", "a $}": '"a \\$\\}"(${1:x})$0', "none": "none"}
+    assert [found[name].get("insertTextFormat") for name in ("two", "none")] == [2, None]
+    (called,) = (one for one in client.ask_at("completion", URI, 4, 2)["items"] if one["label"] == "two")
+    assert called["textEdit"]["newText"] == "two"
+
+
+def test_the_name_of_an_argument_is_offered_with_its_sign(client):
+    opened(client, "let two(x, t) = x for t\ntwo(")
+    found = {one["label"]: one for one in client.ask_at("completion", URI, 1, 4)["items"]}
+    assert found["t = "]["textEdit"]["newText"] == "t = "
+
+
+def test_one_motion_is_one_motion(client):
+    opened(client, "")
+    details = [one["detail"] for one in client.ask_at("completion", URI, 0, 0)["items"]]
+    assert any(detail.endswith(", 1 motion") for detail in details)
+    assert not any("1 motions" in detail for detail in details)
+
+
 def test_a_client_that_indents_is_told_to_leave_the_line_of_a_name_as_it_is(start, client):
     item = {"snippetSupport": True, "insertTextModeSupport": {"valueSet": [1, 2]}}
     indenting = start()

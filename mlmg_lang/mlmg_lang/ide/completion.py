@@ -26,6 +26,7 @@ from mlmg_lang.parsing.tokens import NAMES, Token
 from mlmg_lang.planning.flow import State
 from mlmg_lang.planning.names import Names
 from mlmg_lang.source import Span
+from mlmg_lang.spelling import counted
 
 _UNITS: Final = ("sec", "ms", "min", "frames", "cycles")
 _STATEMENT_WORDS: Final = frozenset({"WAIT", "END", "REPEAT", "CHOOSE", "LET", "USE"})
@@ -254,4 +255,4 @@ def _graph(graph: str, says: str) -> Completion:
 
 
 def _part_says(graph: str, names: Names) -> str:
-    return f"a part of the body: {len(names.motions(graph))} motions"
+    return f"a part of the body: {counted(len(names.motions(graph)), 'motion')}"
