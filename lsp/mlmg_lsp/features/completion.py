@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
 from operator import attrgetter
 from typing import TYPE_CHECKING, Any, Final
 
@@ -14,6 +16,7 @@ from mlmg_lang.ide.here import state_before, tokens_around
 from mlmg_lang.ide.offers import Completion, Offers, What
 from mlmg_lang.planning import flow
 from mlmg_lang.planning.names import Names
+from mlmg_lang.spelling import counted
 from mlmg_lsp.convert import markup, offset_of
 from mlmg_lsp.nothing import NoFits, Nothing
 from mlmg_lsp.open_text import Snapshot
@@ -21,6 +24,7 @@ from mlmg_lsp.positions import EditorPosition, range_from_span
 from mlmg_lsp.written import Json, Written, written
 
 if TYPE_CHECKING:
+    from mlmg_lang.front_end import Analysis
     from mlmg_runtime.library import Library
 
 MOST_SENT: Final = 100
@@ -45,6 +49,20 @@ _SNIPPETS: Final[Mapping[str, str]] = {
 }
 
 
+@dataclass(frozen=True, slots=True)
+class _Spot:
+    """What completions take the place of.
+
+    Attributes
+    ----------
+    place : as it is sent. stands : what stands there. is_called : whether a parenthesis stands right behind it.
+    """
+
+    place: Json
+    stands: str
+    is_called: bool
+
+
 def completion(snapshot: Snapshot, params: types.CompletionParams) -> Written:
     """Return what could be written at a place, the best first."""
     source, client = snapshot.analysis.source, snapshot.client
@@ -54,8 +72,8 @@ def completion(snapshot: Snapshot, params: types.CompletionParams) -> Written:
     word = source.text[span.start : offset].lstrip('"')
     found = matching(word, offered.found, attrgetter("name"), MOST_SENT)
     place = _range(range_from_span(source, span, client.encoding))
-    stands = source.text[span.start : span.end]
-    items = [_item(snapshot, one, rank, place, stands) for rank, one in enumerate(found[:MOST_SENT])]
+    spot = _Spot(place, source.slice(span), source.text[span.end : span.end + 1] == "(")
+    items = [_item(snapshot, one, rank, spot) for rank, one in enumerate(found[:MOST_SENT])]
     return written({"isIncomplete": len(found) > MOST_SENT, "items": items})
 
 
@@ -75,32 +93,54 @@ def _range(ends: Iterable[EditorPosition]) -> Json:
     return {"start": start, "end": end}
 
 
-def _item(snapshot: Snapshot, one: Completion, rank: int, place: Json, stands: str) -> Json:
-    """Return a completion as it is sent; `place`: what it takes the place of, and what `stands` there."""
-    snippet = _SNIPPETS.get(one.text) if snapshot.client.snippets and one.what is What.WORD else None
+def _item(snapshot: Snapshot, one: Completion, rank: int, spot: _Spot) -> Json:
+    """Return a completion as it is sent."""
+    snippet = _snippet(one, spot, snapshot.analysis) if snapshot.client.snippets else None
     item: dict[str, Json] = {
         # What is compared with it begins with the quote where one is written.
-        "label": one.text if stands.startswith('"') else one.name,
+        "label": one.text if spot.stands.startswith('"') else one.name,
         "kind": _KINDS[one.what],
         "detail": _detail(one),
         "sortText": f"{rank:04}",
-        "textEdit": {"range": place, "newText": snippet or one.text},
+        "textEdit": {"range": spot.place, "newText": snippet or one.text},
         "data": {"uri": snapshot.uri, "name": one.name, "what": one.what.value, "graph": one.graph},
     }
     if snippet:
         item["insertTextFormat"] = types.InsertTextFormat.Snippet.value
     if snapshot.client.indents:
         # Else a client may indent the line of a name as it sees fit.
-        mode = types.InsertTextMode.AdjustIndentation if snippet else types.InsertTextMode.AsIs
+        several = snippet is not None and "\n" in snippet
+        mode = types.InsertTextMode.AdjustIndentation if several else types.InsertTextMode.AsIs
         item["insertTextMode"] = mode.value
     return item
+
+
+def _snippet(one: Completion, spot: _Spot, analysis: Analysis) -> str | None:
+    """Return a completion with places to fill in: of a definition, for what has to be given to it."""
+    if one.what is What.WORD:
+        return _SNIPPETS.get(one.text)
+    let = analysis.made.gathered.definitions.lets.get(one.name) if one.what is What.DEFINITION else None
+    needed = (
+        []
+        if let is None or spot.is_called
+        else [part.name.text for part in let.parameters or () if part.default is None]
+    )
+    if not needed:
+        return None
+    places = ", ".join(f"${{{number}:{name}}}" for number, name in enumerate(needed, 1))
+    return f"{_escaped(one.text)}({places})$0"
+
+
+def _escaped(text: str) -> str:
+    """Return a text as it is written in a snippet."""
+    return re.sub(r"[\\$}]", r"\\\g<0>", text)
 
 
 def _detail(one: Completion) -> str:
     """Return a few words that stand beside it in the list."""
     if one.graph is None:
         return one.says or one.what.value
-    n_motions = f", {len(one.motions)} motions" if one.what is What.TAG else ""
+    n_motions = f", {counted(len(one.motions), 'motion')}" if one.what is What.TAG else ""
     return f"{one.what.value} on {one.graph}{n_motions}"
 
 
@@ -142,7 +182,7 @@ def _of_motion(library: Library, motion: str) -> Iterator[str]:
 
 def _of_tag(library: Library, graph: str, tag: str) -> Iterator[str]:
     motions = [motion for motion in library.motions(graph) if tag in library.tags(graph, motion)]
-    yield f"**{tag}** on {graph}: {len(motions)} motion{'' if len(motions) == 1 else 's'}"
+    yield f"**{tag}** on {graph}: {counted(len(motions), 'motion')}"
     seconds = ((motion, library.n_frames(motion) / library.frame_rate) for motion in motions[:10])
     more = f"\n- and {len(motions) - 10} more" if len(motions) > 10 else ""
     yield "\n".join(f"- {motion}, {length:.1f} s" for motion, length in seconds) + more
@@ -151,5 +191,5 @@ def _of_tag(library: Library, graph: str, tag: str) -> Iterator[str]:
 def _of_graph(library: Library, graph: str) -> Iterator[str]:
     own = library.by_name[graph]
     parent = f", below {own.parent}" if own.parent else ""
-    yield f"**{graph}**: {len(own.motions)} motions{parent}"
+    yield f"**{graph}**: {counted(len(own.motions), 'motion')}{parent}"
     yield "joints: " + ", ".join(library.skeleton.names[joint] for joint in own.joints)
