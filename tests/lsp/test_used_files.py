@@ -133,6 +133,22 @@ def test_a_used_file_that_is_opened_with_another_text_counts_as_it_stands_there(
     assert [one["code"] for one in client.diagnostics(user) if one["severity"] == 1] == ["MS021"]
 
 
+def test_a_text_without_a_file_uses_those_of_the_first_folder_of_the_editor(start, tmp_path, used):
+    used.write_text(RIGHT, encoding="utf-8")
+    (tmp_path / "untitled.ms").write_text("let amble = WALK\n", encoding="utf-8")
+    client = start()
+    client.initialize(PUSHED, rootUri=used.parent.as_uri())
+    client.open("untitled:Untitled-1", 'use "used.ms"\nstroll\n')
+    assert client.diagnostics("untitled:Untitled-1") == []
+    (place,) = client.ask_at("definition", "untitled:Untitled-1", 1, 1)
+    assert place["uri"] == used.as_uri()
+    (link,) = client.ask("textDocument/documentLink", {"textDocument": {"uri": "untitled:Untitled-1"}})
+    assert link["target"] == used.as_uri()
+    client.open("untitled:Untitled-2", 'use "../untitled.ms"\namble\n')
+    (wrong,) = client.diagnostics("untitled:Untitled-2")
+    assert "lies outside of the script's own folders" in wrong["message"]
+
+
 def test_a_file_that_is_opened_while_it_is_read_for_the_first_time_counts_as_it_stands_there(tmp_path, used):
     used.write_text("", encoding="utf-8")
 
