@@ -3,63 +3,74 @@
 from __future__ import annotations
 
 from bisect import bisect_left
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterator
 
 from lsprotocol import types
 
-from mlmg_lang.formatting.by_pieces import Forms, forms_of
+from mlmg_lang.formatting.by_pieces import forms_of
 from mlmg_lang.formatting.format_script import format_source
+from mlmg_lang.formatting.line_changes import Change, line_changes, line_end_of, with_line_ends
 from mlmg_lang.source import Source, Span
-from mlmg_lsp.convert import changed_lines, range_of
+from mlmg_lsp.convert import range_of
 from mlmg_lsp.open_text import Snapshot
 
 
 def get_ahead(snapshot: Snapshot) -> None:
     """Find out what takes long of a text the first time."""
-    for _ in _changes(snapshot, range(len(snapshot.analysis.source.line_starts))):
+    for _ in _changes(snapshot, _all_lines(snapshot)):
         pass
 
 
 def formatting(snapshot: Snapshot, _params: types.DocumentFormattingParams) -> list[types.TextEdit]:
     """Return what brings a script into canonical form."""
-    return _edits(snapshot, range(len(snapshot.analysis.source.line_starts)), lambda _first, _last: True)
+    return _edits(snapshot, _all_lines(snapshot))
 
 
 def range_formatting(snapshot: Snapshot, params: types.DocumentRangeFormattingParams) -> list[types.TextEdit]:
-    """Return what of that has to do with some lines."""
+    """Return what of that changes the lines of a selection, and no others."""
     begin, end = params.range.start.line, params.range.end.line
     if params.range.end.character == 0 and end > begin:
         end -= 1
-    return _edits(snapshot, range(begin, end + 1), lambda first, last: first <= end and last >= begin)
+    return _edits(snapshot, range(begin, end + 1))
 
 
 def on_type_formatting(snapshot: Snapshot, params: types.DocumentOnTypeFormattingParams) -> list[types.TextEdit]:
-    """Return what of that has to do with the line that has just been finished, and with no other."""
+    """Return what of that changes the line that has just been finished, and no other."""
     line = params.position.line - (params.ch == "\n")
-    return _edits(snapshot, range(line, line + 1), lambda first, last: first == last == line)
+    return _edits(snapshot, range(line, line + 1))
 
 
-def _edits(snapshot: Snapshot, lines: range, wanted: Callable[[int, int], bool]) -> list[types.TextEdit]:
-    """Return the edits of which the first and the last line that they change are wanted; `lines`: where these are."""
-    source = snapshot.analysis.source
-    edits = (
-        types.TextEdit(range_of(source, span, snapshot.client.encoding), text)
-        for span, text in _changes(snapshot, lines)
-    )
-    return list(_wanted(edits, wanted))
+def _all_lines(snapshot: Snapshot) -> range:
+    return range(len(snapshot.analysis.source.line_starts))
 
 
-def _changes(snapshot: Snapshot, lines: range) -> Iterator[tuple[Span, str]]:
+def _edits(snapshot: Snapshot, lines: range) -> list[types.TextEdit]:
+    """Return what changes in some lines; what would change others too is left out."""
+    source, encoding = snapshot.analysis.source, snapshot.client.encoding
+    changes = ((range_of(source, one.span, encoding), one.text) for one in _changes(snapshot, lines))
+    return [
+        types.TextEdit(place, text) for place, text in changes if place.start.line in lines and _last(place) in lines
+    ]
+
+
+def _last(place: types.Range) -> int:
+    """Return the last line of which there is something in a place."""
+    return place.end.line - (place.end.character == 0 and place.end.line > place.start.line)
+
+
+def _changes(snapshot: Snapshot, lines: range) -> Iterator[Change]:
     """Yield what changes in some lines, piece by piece where each can be written by itself; there may be more."""
     forms = forms_of(snapshot.analysis, snapshot.kept.get("forms"))
     snapshot.kept["forms"] = forms
-    source = snapshot.analysis.source
     if not forms.alone:
-        whole = Source(source.text)
-        yield from changed_lines(whole, _with_line_ends_of(source, format_source(whole)))
+        whole = Source(snapshot.analysis.source.text)
+        yield from line_changes(whole, with_line_ends(format_source(whole), line_end_of(whole)))
         return
+    starts = snapshot.analysis.made.places.starts
     for number in _pieces_at(snapshot, lines):
-        yield from _in_piece(snapshot, forms, number)
+        start = starts[number]
+        for change in forms.changes(number):
+            yield Change(Span(change.span.start + start, change.span.end + start), change.text)
 
 
 def _pieces_at(snapshot: Snapshot, lines: range) -> range:
@@ -70,27 +81,3 @@ def _pieces_at(snapshot: Snapshot, lines: range) -> range:
     end = len(made.source.text) if last + 1 == len(line_starts) else line_starts[last + 1]
     begin = min(starts.last_to(line_starts[first]), len(made.pieces) - 1)
     return range(begin, max(bisect_left(starts, end), begin + 1))
-
-
-def _in_piece(snapshot: Snapshot, forms: Forms, number: int) -> Iterator[tuple[Span, str]]:
-    before, start = forms.text(number), snapshot.analysis.made.places.starts[number]
-    after = _with_line_ends_of(snapshot.analysis.source, forms.written(number))
-    if after != before:
-        for span, text in changed_lines(Source(before), after):
-            yield Span(span.start + start, span.end + start), text
-
-
-def _wanted(edits: Iterable[types.TextEdit], wanted: Callable[[int, int], bool]) -> Iterable[types.TextEdit]:
-    for edit in edits:
-        start, end = edit.range.start, edit.range.end
-        last = end.line - 1 if end.character == 0 and end.line > start.line else end.line
-        if wanted(start.line, last):
-            yield edit
-
-
-def _with_line_ends_of(source: Source, text: str) -> str:
-    """Return a text with the line ends of another: which they are is up to the editor, not to the formatter."""
-    first = source.line_starts[1] if len(source.line_starts) > 1 else 0
-    if source.text[max(first - 2, 0) : first] == "\r\n":
-        return text.replace("\r\n", "\n").replace("\n", "\r\n")
-    return text

@@ -13,6 +13,7 @@ from enum import Enum
 from mlmg_lang.analysis import Analysis
 from mlmg_lang.blocks import Statement, WholeBlock
 from mlmg_lang.diagnostics import has_errors
+from mlmg_lang.formatting.line_changes import Change, line_changes, line_end_of, with_line_ends
 from mlmg_lang.formatting.pieces import statements
 from mlmg_lang.formatting.printing import Printer
 from mlmg_lang.formatting.reading import read_lines
@@ -55,28 +56,27 @@ class Forms:
     _texts: tuple[str, Sequence[int]]
     _forms: Sequence[_Form]
     _words: Words
+    _line_end: str
     _sound: dict[tuple[str, ...], bool] = field(default_factory=dict)
-    _written: dict[str, str] = field(default_factory=dict)
+    _changes: dict[tuple[str, bool], Sequence[Change]] = field(default_factory=dict)
 
-    def text(self, number: int) -> str:
-        """Return a piece as it is."""
+    def changes(self, number: int) -> Sequence[Change]:
+        """Return what makes a piece into its canonical form; places are counted from its beginning."""
         text, starts = self._texts
-        return text[starts[number] : starts[number + 1]]
+        is_first = number == 0  # there is no empty line before it, then
+        known = text[starts[number] : starts[number + 1]], is_first
+        if known not in self._changes:
+            self._changes[known] = self._found(*known)
+        return self._changes[known]
 
-    def written(self, number: int) -> str:
-        """Return a piece as it is to be, with the empty line before it if there is to be one."""
-        text = self.text(number)
-        if text not in self._written:
-            self._written[text] = self._print(text)
-        written, tokens = self._written[text], self._forms[number].piece.tokens
-        parted = number > 0 and bool(written) and tokens[0].type == "NEWLINE"
-        return f"\n{written}" if parted else written
-
-    def _print(self, text: str) -> str:
+    def _found(self, text: str, is_first: bool) -> Sequence[Change]:
         source = Source(text)
         tokens = tokenize(source)
         layout, strays = read_lines(tokens)
-        return Printer(source, tokens, layout, self._words, self._sound, strays).script()
+        written = Printer(source, tokens, layout, self._words, self._sound, strays).script()
+        is_parted = not is_first and bool(written) and tokens[0].type == "NEWLINE"
+        after = f"\n{written}" if is_parted else written
+        return line_changes(source, with_line_ends(after, self._line_end))
 
 
 def forms_of(analysis: Analysis, previous: Forms | None = None) -> Forms:
@@ -91,11 +91,12 @@ def forms_of(analysis: Analysis, previous: Forms | None = None) -> Forms:
     forms = [kept.get(id(piece)) or _form(piece) for piece in made.pieces]
     words = _all_words(form.words for form in forms)
     sound = previous._sound if previous else {}
-    same = previous is not None and previous._words == words and len(previous._written) <= _MOST_KEPT * len(forms)
-    written = previous._written if previous and same else {}
+    line_end = line_end_of(made.source)
+    same = previous is not None and (previous._words, previous._line_end) == (words, line_end)
+    changes = previous._changes if previous and same and len(previous._changes) <= _MOST_KEPT * len(forms) else {}
     reaches = [form.reach for form in forms if form.reach is not _Reach.NONE]
     alone = _Reach.ALL not in reaches and len(reaches) < 2
-    return Forms(alone, (made.source.text, tuple(made.places.starts)), forms, words, sound, written)
+    return Forms(alone, (made.source.text, tuple(made.places.starts)), forms, words, line_end, sound, changes)
 
 
 def _form(piece: Statement) -> _Form:

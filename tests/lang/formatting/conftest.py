@@ -53,6 +53,12 @@ def facts(text: str) -> dict[str, Any]:
     }
 
 
+@pytest.fixture(scope="session", name="facts")
+def facts_of() -> Callable[[str], dict[str, Any]]:
+    """Return a function: a script -> all that formatting must not change."""
+    return facts
+
+
 @pytest.fixture(scope="session")
 def formatted() -> Callable[[str], str]:
     """Return a function that formats a script, and holds the result to all that is promised of it."""

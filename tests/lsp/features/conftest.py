@@ -54,6 +54,16 @@ def snapshots(demo_library: Library) -> Callable[[Encoding, int], Iterator[Snaps
 
 
 @pytest.fixture
+def known(demo_library: Library) -> Callable[[str], Snapshot]:
+    """Return a function: a text -> what is known of it."""
+
+    def found(text: str) -> Snapshot:
+        return Snapshot("untitled:x", 0, analyse(Source(text), demo_library), None, Client("utf-16"))
+
+    return found
+
+
+@pytest.fixture
 def afresh() -> Callable[[Snapshot], Snapshot]:
     """Return a function: what is known of a text -> the same, with nothing kept from the texts before it."""
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import random
 from collections.abc import Iterable
 
 import pytest
@@ -11,6 +12,7 @@ from mlmg_lang.formatting.format_script import format_source
 from mlmg_lang.source import Source
 from mlmg_lsp.convert import offset_of
 from mlmg_lsp.features.formatting import formatting, on_type_formatting, range_formatting
+from mlmg_lsp.open_text import Snapshot
 from mlmg_lsp.positions import Encoding
 
 TEXT = types.TextDocumentIdentifier("untitled:x")
@@ -47,15 +49,42 @@ def test_after_any_edits_it_is_that_of_the_whole(snapshots, encoding):
 
 
 def test_of_some_lines_it_is_what_of_all_of_it_lies_there(snapshots):
-    for snapshot in snapshots("utf-16", 25):
+    draw = random.Random(1)
+    for snapshot in snapshots("utf-16", 40):
         all_edits = formatting(snapshot, ALL)
         n_lines = len(snapshot.analysis.source.line_starts)
-        for line in range(n_lines):
-            place = types.Range(types.Position(line, 0), types.Position(line, 1))
-            found = range_formatting(snapshot, types.DocumentRangeFormattingParams(TEXT, place, OPTIONS))
-            assert found == [one for one in all_edits if touches(one, line)]
-            typed = types.DocumentOnTypeFormattingParams(TEXT, types.Position(line, 0), "}", OPTIONS)
-            assert [one for one in found if is_within(one, line)] == on_type_formatting(snapshot, typed)
+        for begin in range(n_lines):
+            end = min(begin + draw.choice((0, 0, 1, 3, 8)), n_lines - 1)
+            found = of_lines(snapshot, begin, end)
+            assert found == [one for one in all_edits if begin <= one.range.start.line and last_of(one) <= end]
+            typed = types.DocumentOnTypeFormattingParams(TEXT, types.Position(begin, 0), "}", OPTIONS)
+            assert on_type_formatting(snapshot, typed) == of_lines(snapshot, begin, begin)
+
+
+def test_of_some_lines_no_others_change(snapshots):
+    draw = random.Random(2)
+    for snapshot in snapshots("utf-16", 60):
+        text = snapshot.analysis.source.text
+        starts = (*snapshot.analysis.source.line_starts, len(text))
+        begin, end = sorted(draw.choices(range(len(starts) - 1), k=2))
+        after = applied(text, of_lines(snapshot, begin, end), "utf-16")
+        assert after.startswith(text[: starts[begin]])
+        assert after.endswith(text[starts[end + 1] :])
+
+
+def test_one_selection_after_the_other_comes_to_the_whole_where_no_change_lies_in_both(snapshots, known):
+    for snapshot in snapshots("utf-16", 30):
+        text = snapshot.analysis.source.text
+        ends = sorted({last_of(edit) for edit in formatting(snapshot, ALL)}, reverse=True)
+        wanted = canonical(text)
+        for end, before in zip(ends, (*ends[1:], -1), strict=True):
+            text = applied(text, of_lines(known(text), before + 1, end), "utf-16")
+        assert text == wanted
+
+
+def of_lines(snapshot: Snapshot, begin: int, end: int) -> list[types.TextEdit]:
+    place = types.Range(types.Position(begin, 1), types.Position(end, 1))
+    return range_formatting(snapshot, types.DocumentRangeFormattingParams(TEXT, place, OPTIONS))
 
 
 def last_of(edit: types.TextEdit) -> int:
@@ -63,9 +92,33 @@ def last_of(edit: types.TextEdit) -> int:
     return end.line - 1 if end.character == 0 and end.line > start.line else end.line
 
 
-def touches(edit: types.TextEdit, line: int) -> bool:
-    return edit.range.start.line <= line <= last_of(edit)
+@pytest.mark.parametrize(
+    ("text", "ch", "expected"),
+    [
+        ("repeat 2 {\n    WALK for 3s\n    }¦", "}", "repeat 2 {\n    WALK for 3s\n}\n"),
+        ("repeat 2 {\n    WALK for 3s\n    }¦\n", "}", "repeat 2 {\n    WALK for 3s\n}\n"),
+        ("  repeat 2 {\n  WALK\n      IDLE\n    }¦\n", "}", "  repeat 2 {\n  WALK\n      IDLE\n}\n"),
+        ("repeat 2 {\nrepeat 3 {\nWALK\n}¦\n}\n", "}", "repeat 2 {\nrepeat 3 {\nWALK\n    }\n}\n"),
+        ("repeat 2 {\n WALK }¦\nIDLE  once\n", "}", "repeat 2 {\n    WALK\n}\nIDLE  once\n"),
+        ("choose {\n WALK | repeat 2 {\nIDLE\n}\n  }¦\n", "}", "choose {\n WALK | repeat 2 {\nIDLE\n}\n}\n"),
+        ("repeat 2 {\r\n\tWALK for 3s\r\n\t}¦\r\n", "}", "repeat 2 {\r\n\tWALK for 3s\r\n}\r\n"),
+        ("repeat 2 {\n WALK  FOR 3s\n WLAK  once\n  }¦\n", "}", "repeat 2 {\n WALK  FOR 3s\n WLAK  once\n}\n"),
+        ("repeat 2{\n¦\nWALK  once\n}\n", "\n", "repeat 2 {\n\nWALK  once\n}\n"),
+        ("repeat 2 {\nWALK   for 3s\n¦\nIDLE  once\n}\n", "\n", "repeat 2 {\n    WALK for 3 sec\n\nIDLE  once\n}\n"),
+        ("repeat 2 {\r\n\tWALK   for 3s\r\n\t¦\r\n\t}", "\n", "repeat 2 {\r\n    WALK for 3 sec\r\n\t\r\n\t}"),
+        ("repeat 2 {\nWALK  FOR 3s\n¦\nIDLE  once\n}\n", "\n", "repeat 2 {\n    WALK  FOR 3s\n\nIDLE  once\n}\n"),
+        ("WALK; IDLE  once # so\n¦TALK  once\n", "\n", "WALK\nIDLE once  # so\nTALK  once\n"),
+    ],
+)
+def test_what_is_typed_has_its_line_formatted_and_no_other(known, text, ch, expected):
+    before, after = text.split("¦")
+    line = len(Source(before).line_starts) - 1
+    at = types.Position(line, len(before) - Source(before).line_starts[-1])
+    typed = types.DocumentOnTypeFormattingParams(TEXT, at, ch, OPTIONS)
+    assert applied(before + after, on_type_formatting(known(before + after), typed), "utf-16") == expected
 
 
-def is_within(edit: types.TextEdit, line: int) -> bool:
-    return edit.range.start.line == line == last_of(edit)
+def test_of_a_selection_its_lines_are_formatted_and_no_others(known):
+    text = "repeat 2 {\nTALK   for 3 s\n IDLE  \n}\n"
+    found = of_lines(known(text), 1, 1)
+    assert applied(text, found, "utf-16") == "repeat 2 {\n    TALK for 3 sec\n IDLE  \n}\n"
