@@ -138,11 +138,6 @@ def _turn(lines: Iterable[Piece], name: str) -> tuple[int, Around]:
     return n_closed, opened
 
 
-def braces_after(around: Around, lines: Iterable[Piece]) -> Around:
-    """Return the braces around what comes after some lines; `around` are those around the first."""
-    return after(around, all_of(lines, "marks"))
-
-
 class CutElsewhere(Exception):
     """In other braces a script is cut into other pieces: one of them is no brace any longer, or there are too many."""
 

@@ -36,25 +36,6 @@ class _Value:
 Values: TypeAlias = Mapping[str, _Value]
 
 
-@dataclass(frozen=True, slots=True)
-class Expanded:
-    """A script without definitions, with what is wrong with how they are used."""
-
-    script: syntax.Script
-    diagnostics: tuple[Diagnostic, ...]
-
-
-def expand(script: syntax.Script, definitions: Definitions) -> Expanded:
-    """Return a script with what its definitions say in place of their names; where that fails, `Broken` stands."""
-    if not definitions.lets:
-        kept = tuple(item for item in script.items if not isinstance(item, syntax.Use))
-        return Expanded(script if len(kept) == len(script.items) else replace(script, items=kept), ())
-    expander = Expander(definitions)
-    items = expander.body(script.items)
-    remarks = () if any_broken(script.items) else unused(script.items, used_names(script.items), definitions)
-    return Expanded(replace(script, items=items), (*expander.diagnostics, *remarks))
-
-
 def told_from(one: Diagnostic, command: Span) -> Diagnostic:
     """Return what is wrong with something that a command says with the command's place, if it is a definition's."""
     if one.span is None or (command.start <= one.span.start and one.span.end <= command.end):

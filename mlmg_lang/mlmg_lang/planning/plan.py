@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Final
 
 from mlmg_lang.definitions.expand import told_from
@@ -25,27 +25,6 @@ from mlmg_lang.source import Source, Span
 from mlmg_lang.spelling import listed, normal
 
 _MAX_COUNT = 10**9
-
-
-@dataclass(frozen=True, slots=True)
-class Planned:
-    """A typed plan with what is wrong with the script's names and types."""
-
-    plan: typed.TypedPlan
-    diagnostics: tuple[Diagnostic, ...]
-
-
-def plan(script: syntax.Script, definitions: Definitions, names: Names, frame_rate: float, source: Source) -> Planned:
-    """Return the typed plan of a script whose definitions have been put in.
-
-    Parameters
-    ----------
-    definitions : those of the script; what is wrong with their names is reported where they stand.
-    """
-    planner = Planner(definitions, names, frame_rate, source)
-    planner.define(definitions)
-    statements = planner.body(script.items)
-    return Planned(typed.TypedPlan(statements), tuple(planner.diagnostics))
 
 
 class Planner:
