@@ -105,6 +105,20 @@ def test_the_name_of_an_argument_is_offered_with_its_sign(client):
     assert found["t = "]["textEdit"]["newText"] == "t = "
 
 
+def test_a_name_that_lacks_what_joins_it_takes_the_place_of_its_words_which_it_is_compared_with(client):
+    opened(client, "WALK with Upper Bo for 2 sec")
+    found = client.ask_at("completion", URI, 0, 18)
+    (item,) = found["items"]
+    assert (item["label"], item["filterText"], item["textEdit"]["newText"]) == (
+        "Upper-Body",
+        "Upper Body",
+        "Upper-Body",
+    )
+    assert item["textEdit"]["range"]["start"]["character"] == 10
+    assert item["textEdit"]["range"]["end"]["character"] == 18
+    assert found["isIncomplete"]
+
+
 def test_one_motion_is_one_motion(client):
     opened(client, "")
     details = [one["detail"] for one in client.ask_at("completion", URI, 0, 0)["items"]]

@@ -5,14 +5,13 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
-from operator import attrgetter
 from typing import TYPE_CHECKING, Any, Final
 
 from lsprotocol import types
 
-from mlmg_lang.ide.completion import Surroundings, complete
-from mlmg_lang.ide.fuzzy import matching
+from mlmg_lang.ide.completion import Surroundings
 from mlmg_lang.ide.here import state_before, tokens_around
+from mlmg_lang.ide.matches import matches
 from mlmg_lang.ide.offers import Completion, Offers, What
 from mlmg_lang.planning import flow
 from mlmg_lang.planning.names import Names
@@ -56,25 +55,26 @@ class _Spot:
     Attributes
     ----------
     place : as it is sent. stands : what stands there. is_called : whether a parenthesis stands right behind it.
+    apart : whether that is several words, which a name may join otherwise.
     """
 
     place: Json
     stands: str
     is_called: bool
+    apart: bool
 
 
 def completion(snapshot: Snapshot, params: types.CompletionParams) -> Written:
     """Return what could be written at a place, the best first."""
     source, client = snapshot.analysis.source, snapshot.client
     offset = offset_of(source, params.position, client.encoding)
-    offered = complete(tokens_around(snapshot.analysis, offset), offset, _surroundings(snapshot, offset))
-    span = offered.span
-    word = source.text[span.start : offset].lstrip('"')
-    found = matching(word, offered.found, attrgetter("name"), MOST_SENT)
+    tokens = tokens_around(snapshot.analysis, offset)
+    meant = matches(source, tokens, offset, _surroundings(snapshot, offset), MOST_SENT)
+    span = meant.offered.span
     place = _range(range_from_span(source, span, client.encoding))
-    spot = _Spot(place, source.slice(span), source.text[span.end : span.end + 1] == "(")
-    items = [_item(snapshot, one, rank, spot) for rank, one in enumerate(found[:MOST_SENT])]
-    return written({"isIncomplete": len(found) > MOST_SENT, "items": items})
+    spot = _Spot(place, source.slice(span), source.text[span.end : span.end + 1] == "(", meant.apart)
+    items = [_item(snapshot, one, rank, spot) for rank, one in enumerate(meant.found[:MOST_SENT])]
+    return written({"isIncomplete": not meant.is_final, "items": items})
 
 
 def resolve(snapshot: Snapshot, item: types.CompletionItem) -> types.CompletionItem:
@@ -105,6 +105,8 @@ def _item(snapshot: Snapshot, one: Completion, rank: int, spot: _Spot) -> Json:
         "textEdit": {"range": spot.place, "newText": snippet or one.text},
         "data": {"uri": snapshot.uri, "name": one.name, "what": one.what.value, "graph": one.graph},
     }
+    if spot.apart:
+        item["filterText"] = re.sub(r"[\s_-]", " ", one.name)
     if snippet:
         item["insertTextFormat"] = types.InsertTextFormat.Snippet.value
     if snapshot.client.indents:

@@ -1,4 +1,4 @@
-"""A text, a place in it and what may be playing there -> what could be written there, the best first.
+"""What is being written at a place, and what may be playing there -> what could be written there, the best first.
 
 What the grammar accepts comes from the parser itself; the graphs whose names are offered, from what is in `reach`; and
 the names of each, and their order, from what the library `offers`.
@@ -14,7 +14,7 @@ from typing import Final
 from mlmg_lang.definitions.gather import Definitions, Kind
 from mlmg_lang.ide.arguments import argument_at, parameter_kinds
 from mlmg_lang.ide.combining import Partners
-from mlmg_lang.ide.cursor import Cursor, cursor_at
+from mlmg_lang.ide.cursor import Cursor
 from mlmg_lang.ide.offers import Completion, Offers, What, best_fit
 from mlmg_lang.ide.reach import Below, Reach, expression, left_of_with
 from mlmg_lang.ide.words import WORDS
@@ -65,16 +65,15 @@ class Surroundings:
     offers: Offers
 
 
-def complete(tokens: Sequence[Token], offset: int, around: Surroundings) -> Offered:
-    """Return what could be written at an offset, the best first.
+def complete(cursor: Cursor | None, offset: int, around: Surroundings) -> Offered:
+    """Return what could be written at a cursor, the best first; nothing without one.
 
-    Nothing is left out for what has been written of the word: that is up to `fuzzy.matching`.
+    Nothing is left out for what has been written of the word: that is up to `matches`.
 
     Parameters
     ----------
-    tokens : of the text, or of the lines around the offset.
+    offset : of the cursor.
     """
-    cursor = cursor_at(tokens, offset)
     if cursor is None:
         return Offered(Span(offset, offset), ())
     completer = _Completer(around, cursor, Reach(around.names, around.definitions, around.state))

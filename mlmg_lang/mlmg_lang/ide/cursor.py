@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from bisect import bisect_left
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
 from typing import Final
 
 from mlmg_lang.parsing.layout import Block, Line, lay_out
@@ -16,6 +17,10 @@ _BEFORE_NUMBER: Final = frozenset({"FOR", "WAIT", "REPEAT"})
 """What a number stands behind, and no motion."""
 _BEFORE_VALUE: Final = frozenset({"LEFT", "COMMA", "EQUALS"})
 """What a motion may stand behind, or a duration."""
+
+
+_MOST_IN_NAME: Final = 5
+"""So many words before the cursor may be of the name that is being written."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,6 +68,19 @@ def cursor_at(tokens: Sequence[Token], offset: int) -> Cursor | None:
         before = before[:-n_words]
     line, last, nested = _statement(before, offset)
     return Cursor(word, span, quoted, line, last, nested)
+
+
+def in_a_row(tokens: Sequence[Token], cursor: Cursor) -> Iterator[Cursor]:
+    """Yield what is being written if words right before it are of the same name, which lacks its quotes; most first."""
+    end = bisect_left(tokens, cursor.span.start, key=lambda token: token.span.start)
+    first = end
+    while first > max(end - _MOST_IN_NAME, 0) and tokens[first - 1].type in ("NAME", "UNIT"):
+        first -= 1
+    if not cursor.word or cursor.quoted:
+        return
+    for at in range(first, end):
+        span = Span(tokens[at].span.start, cursor.span.end)
+        yield replace(cursor, span=span, before=cursor.before[: at - end])
 
 
 def is_open(tokens: Sequence[Token]) -> bool:

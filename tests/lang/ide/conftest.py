@@ -9,6 +9,7 @@ from mlmg_lang.catalog import Catalog
 from mlmg_lang.diagnostics import Diagnostic
 from mlmg_lang.front_end import Analysis, analyse
 from mlmg_lang.ide.completion import Surroundings, complete
+from mlmg_lang.ide.cursor import cursor_at
 from mlmg_lang.ide.occurrences import Place
 from mlmg_lang.ide.offers import Completion, Offers
 from mlmg_lang.ide.rename import Edit
@@ -43,7 +44,8 @@ def offers(reference: Catalog) -> Callable[..., list[Completion]]:
         names = Names(library)
         definitions = analyse(Source(f"{defined}\n"), library).definitions
         around = Surroundings(names, definitions, flow.begin(names, playing), Offers(names, InOrder(names)))
-        return list(complete(tokenize(Source(before + after)), len(before), around).found)
+        cursor = cursor_at(tokenize(Source(before + after)), len(before))
+        return list(complete(cursor, len(before), around).found)
 
     return ask
 

@@ -274,6 +274,7 @@ def test_of_a_name_without_its_second_quote_what_stands_behind_the_cursor_stays(
 
 def test_what_has_been_used_more_comes_first_among_equals(reference: Catalog) -> None:
     from mlmg_lang.ide.completion import Surroundings, complete
+    from mlmg_lang.ide.cursor import cursor_at
     from mlmg_lang.ide.offers import Offers
     from mlmg_lang.planning import flow
     from mlmg_lang.planning.names import Names
@@ -286,7 +287,7 @@ def test_what_has_been_used_more_comes_first_among_equals(reference: Catalog) ->
     definitions = analyse(Source(""), reference).definitions
     offers = Offers(names, Alike(), {"TALK": 3, "Walk_02": 1})
     around = Surroundings(names, definitions, flow.begin(names, "Idle_01"), offers)
-    assert [one.text for one in complete((), 0, around).found][:2] == ["TALK", "Walk_02"]
+    assert [one.text for one in complete(cursor_at((), 0), 0, around).found][:2] == ["TALK", "Walk_02"]
 
 
 def test_names_are_ranked_by_the_best_of_their_motions_then_by_use_then_as_the_library_has_them(

@@ -132,7 +132,7 @@ def test_a_line_end_behind_the_text_makes_no_difference(reference, in_order):
         analysis = analyse(Source(text), reference)
         definitions, before = analysis.made.gathered.definitions, state_before(analysis, offset, names)
         around = Surroundings(names, definitions, before.state, Offers(names, in_order(names)))
-        found = complete(tokens_around(analysis, offset), offset, around)
+        found = complete(cursor_at(tokens_around(analysis, offset), offset), offset, around)
         return found.span, found.found
 
     for end in CURSORS:

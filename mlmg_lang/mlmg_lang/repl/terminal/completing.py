@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
-from operator import attrgetter
 from pathlib import Path
 from typing import Final
 
@@ -13,8 +12,9 @@ from prompt_toolkit.completion import CompleteEvent, Completer
 from prompt_toolkit.completion import Completion as Shown
 from prompt_toolkit.document import Document
 
-from mlmg_lang.ide.completion import Surroundings, complete
+from mlmg_lang.ide.completion import Surroundings
 from mlmg_lang.ide.fuzzy import matching
+from mlmg_lang.ide.matches import matches
 from mlmg_lang.ide.offers import Completion, Offers, What
 from mlmg_lang.parsing.tokenize import tokenize
 from mlmg_lang.planning import flow
@@ -63,12 +63,12 @@ class ScriptCompleter(Completer):
             yield from self._of_script(text, offset)
 
     def _of_script(self, text: str, offset: int) -> Iterator[Shown]:
-        offered = complete(tokenize(Source(text)), offset, self._surroundings())
-        begin = offered.span.start
-        word = text[begin:offset].lstrip('"')
-        for rank, one in enumerate(matching(word, offered.found, attrgetter("name"), MOST_SHOWN)[:MOST_SHOWN], 1):
+        source = Source(text)
+        meant = matches(source, tokenize(source), offset, self._surroundings(), MOST_SHOWN)
+        offered = meant.offered
+        for rank, one in enumerate(meant.found[:MOST_SHOWN], 1):
             meta = self._meta(one, rank, offered.fit(one))
-            yield Shown(one.text, begin - offset, display=one.name, display_meta=meta)
+            yield Shown(one.text, offered.span.start - offset, display=one.name, display_meta=meta)
 
     def _surroundings(self) -> Surroundings:
         """Return what is completed against; kept until something is played."""

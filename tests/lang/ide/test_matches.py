@@ -1,0 +1,69 @@
+"""Of what could be written, what has the letters that are: also names of several words that lack their quotes."""
+
+import pytest
+
+from mlmg_lang.front_end import analyse
+from mlmg_lang.ide.completion import Surroundings
+from mlmg_lang.ide.matches import Matches, matches
+from mlmg_lang.ide.offers import Offers
+from mlmg_lang.parsing.tokenize import tokenize
+from mlmg_lang.planning import flow
+from mlmg_lang.planning.names import Names
+from mlmg_lang.source import Source
+
+MOST = 100
+
+
+@pytest.fixture
+def found(catalog, in_order):
+    """Return a function: a text with `¦` for the cursor -> what is meant there."""
+    on = {"Whole Body": {"wave hand": ("say hello to all",), "wave": ("GO_UP",)}, "Upper-Body": {"wave hand": ()}}
+    library = catalog(on, {"Upper-Body": "Whole Body"}, start="wave hand")
+    names = Names(library)
+
+    def ask(text: str) -> tuple[Matches, list[tuple[str, str]]]:
+        before, _, after = text.partition("¦")
+        source = Source(before + after)
+        definitions = analyse(Source('let "my own" = wave'), library).definitions
+        around = Surroundings(names, definitions, flow.begin(names, "wave hand"), Offers(names, in_order(names)))
+        meant = matches(source, tokenize(source), len(before), around, MOST)
+        return meant, [(source.slice(meant.offered.span), one.text) for one in meant.found]
+
+    return ask
+
+
+@pytest.mark.parametrize(
+    ("text", "replaced", "offered"),
+    [
+        ("wave ha¦", "wave ha", '"wave hand"'),
+        ("wave   HA¦nd for 2 sec", "wave   HAnd", '"wave hand"'),
+        ('"wave hand" with Upper Bo¦', "Upper Bo", "Upper-Body"),
+        ("Upper-Body wave ha¦", "wave ha", '"wave hand"'),
+        ("go u¦", "go u", "GO_UP"),
+        ("wave or say hello t¦", "say hello t", '"say hello to all"'),
+        ("(my ow¦", "my ow", '"my own"'),
+        ("wave\nwave ha¦", "wave ha", '"wave hand"'),
+        ("wave h¦", "wave h", '"wave hand"'),
+    ],
+)
+def test_names_that_lack_their_quotes_take_the_place_of_all_their_words(found, text, replaced, offered):
+    meant, shown = found(text)
+    assert shown == [(replaced, offered)]
+    assert meant.apart
+    assert not meant.is_final
+
+
+@pytest.mark.parametrize(
+    "text", ["wave\nha¦", "wave; ha¦", '"wave ha¦', "wave with ha¦", "wave say h¦", "end wave ha¦"]
+)
+def test_words_that_are_of_no_name_stay(found, text):
+    meant, _ = found(text)
+    assert not meant.apart
+
+
+def test_words_of_the_language_come_before_names_that_a_row_may_be_of(found):
+    meant, shown = found("wave f¦")
+    assert shown == [("f", "for")]
+    # With the next letter it may be a name.
+    assert not meant.is_final
+    assert found("wav¦")[0].is_final
