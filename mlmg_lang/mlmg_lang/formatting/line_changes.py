@@ -27,6 +27,14 @@ class Change:
     text: str
 
 
+@dataclass(frozen=True, slots=True)
+class _LineEnd:
+    """Where a line begins, and how many of those at the same place come before it that are not taken out with a `;`."""
+
+    offset: int
+    number: int
+
+
 def line_changes(before: Source, after: str) -> list[Change]:
     """Return what makes a text into its canonical form, in order; each change can be made by itself.
 
@@ -72,7 +80,7 @@ def _cuts_inside(old: Sequence[Token], new: Sequence[Token]) -> Iterator[tuple[i
         if place in ends:
             news = ends[place]
             # Of empty lines the first stay.
-            yield from ((end, news[min(n, len(news) - 1)]) for n, end in enumerate(olds))
+            yield from ((one.offset, news[min(one.number, len(news) - 1)].offset) for one in olds)
 
 
 def _words(tokens: Sequence[Token]) -> list[str]:
@@ -92,24 +100,30 @@ def _before_semicolons(tokens: Sequence[Token]) -> set[int]:
     return found
 
 
-def _line_ends(tokens: Sequence[Token], stay: set[int]) -> dict[_Place, list[int]]:
+def _line_ends(tokens: Sequence[Token], stay: set[int]) -> dict[_Place, list[_LineEnd]]:
     """Return the line ends at each place, and the beginning of the text, which is like one.
 
     Parameters
     ----------
     stay : behind how many words a `;` has to stay.
     """
-    found: dict[_Place, list[int]] = {(0, 0, False): [0]}
+    found: dict[_Place, list[_LineEnd]] = {(0, 0, False): [_LineEnd(0, 0)]}
     n_words = n_comments = 0
     parted = False
+    before = ""  # of the line
     for token in tokens:
         match token.type:
             case "NEWLINE":
-                found.setdefault((n_words, n_comments, parted), []).append(token.span.end)
+                ends = found.setdefault((n_words, n_comments, parted), [])
+                goes = before == "SEMICOLON" and not parted
+                ends.append(_LineEnd(token.span.end, ends[-1].number + (not goes) if ends else 0))
+                before = ""
+                continue
             case "COMMENT":
                 n_comments += 1
             case "SEMICOLON":
                 parted = n_words in stay
             case _:
                 n_words, parted = n_words + 1, False
+        before = before or token.type
     return found

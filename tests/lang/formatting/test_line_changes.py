@@ -41,6 +41,7 @@ def changed(text: str, changes: Iterable[Change]) -> str:
         ("WALK; IDLE\nWALK", ["WALK\nIDLE\n", "WALK\n"]),
         ("WALK\n for  3 sec\nIDLE  once\n", ["WALK for 3 sec\n", "IDLE once\n"]),
         ("A\n;\nwith  B\n", ["A;\n"]),
+        ("A\n ;\n\n\nB\n", ["", ""]),
         ("A; IDLE\n;\nTALK\n", ["A\nIDLE\n", ""]),
         (
             "IDLE\n # own\nrepeat 0 { A } # mlmg: ignore[MS045]\n",
