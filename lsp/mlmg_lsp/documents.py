@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import os
-from collections.abc import Awaitable, Callable, Iterator
+from collections.abc import Awaitable, Callable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import partial
@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from mlmg_lang.definitions.gather import Files
     from mlmg_lang.diagnostics import Diagnostic
     from mlmg_lang.front_end import Analysis
+    from mlmg_lang.script_files import UsedFiles
     from mlmg_lsp.libraries import Shelved
 
 GRACE_S = 1.0
@@ -315,7 +316,7 @@ def _against(analysis: Analysis, shelved: Shelved | None) -> Shelved | None:
 class OpenFiles:
     """Finds the files that a text uses, as they stand in the client where they are open there."""
 
-    files: Files
+    files: UsedFiles
     text_of: Callable[[str], str | None]
 
     def find(self, path: str, user: str) -> tuple[Source, tuple[Diagnostic, ...]] | str:
@@ -325,3 +326,7 @@ class OpenFiles:
             return found
         text = self.text_of(found[0].name)
         return found if text is None else (Source(text, found[0].name), ())
+
+    def paths(self, begun: str, user: str) -> Sequence[str]:
+        """Return the paths that the beginning of one could become."""
+        return self.files.paths(begun, user)

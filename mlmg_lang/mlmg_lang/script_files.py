@@ -7,6 +7,7 @@ import sys
 from codecs import BOM_UTF8, BOM_UTF16_BE, BOM_UTF16_LE
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import islice
 from pathlib import Path
 
 from mlmg_lang.diagnostics import Diagnostic
@@ -15,6 +16,8 @@ from mlmg_lang.source import Source, Span
 
 _HEAD = 200
 """So many bytes at the beginning of a file tell whether it is a clip."""
+_MOST_LISTED = 10_000
+"""So many files of a folder are looked at for scripts among them."""
 
 
 def read_script(path: str | Path) -> tuple[Source, tuple[Diagnostic, ...]]:
@@ -63,13 +66,12 @@ class UsedFiles:
 
     def find(self, path: str, user: str) -> tuple[Source, tuple[Diagnostic, ...]] | str:
         """Return a file, and what is wrong with its bytes; or, in words, why it cannot be used."""
-        place = self.place if self.place is not None and user == self.script else Path(user)
-        name = os.path.normpath(place.parent / path)
+        name = os.path.normpath(self._folder_of(user) / path)
         try:
             real = Path(os.path.realpath(name))
         except ValueError:  # there is a NUL in it, or half a character
             return f"`{path}` cannot be the path of a file"
-        if not any(real.is_relative_to(folder) for folder in self.folders):
+        if not self._is_allowed(real):
             return f"`{path}` lies outside of the script's own folders; `--allow-use FOLDER` would allow it"
         if real == Path(os.path.realpath(self.script)):
             name = self.script
@@ -81,6 +83,27 @@ class UsedFiles:
             return f"there is no file `{path}`{_alike(real)}"
         except OSError as error:
             return f"`{path}` cannot be read: {error.strerror}"
+
+    def paths(self, begun: str, user: str) -> tuple[str, ...]:
+        """Return the other scripts of the folder that the beginning of a path leads to, named as that begins."""
+        folder = begun[: begun.rfind("/") + 1]
+        place = self._folder_of(user) / folder
+        own = os.path.realpath(self.place or self.script)
+        try:
+            if not self._is_allowed(Path(os.path.realpath(place))):
+                return ()
+            with os.scandir(place) as entries:
+                listed = [one for one in islice(entries, _MOST_LISTED) if one.name.endswith(".ms") and one.is_file()]
+        except (OSError, ValueError):
+            return ()
+        return tuple(sorted(f"{folder}{one.name}" for one in listed if os.path.realpath(one.path) != own))
+
+    def _folder_of(self, user: str) -> Path:
+        place = self.place if self.place is not None and user == self.script else Path(user)
+        return place.parent
+
+    def _is_allowed(self, real: Path) -> bool:
+        return any(real.is_relative_to(folder) for folder in self.folders)
 
 
 def used_files(script: str | Path, allowed: Sequence[str | Path] = ()) -> UsedFiles:

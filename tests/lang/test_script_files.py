@@ -160,6 +160,18 @@ def test_the_folder_of_the_settings_is_the_scripts_own(folder: Path) -> None:
     assert found("../moves/far.ms") == f"`../moves/far.ms` {OUTSIDE}"
 
 
+def test_the_scripts_that_could_be_used_are_listed_as_paths_name_them(folder: Path) -> None:
+    (folder / "plays/more.ms").write_text("", encoding="utf-8")
+    (folder / "plays/notes.txt").write_text("", encoding="utf-8")
+    (folder / "plays/folder.ms").mkdir()
+    files = used_files("plays/main.ms")
+    assert files.paths("", "plays/main.ms") == files.paths("mo", "plays/main.ms") == ("more.ms", "near.ms")
+    assert files.paths("deep/x", "plays/main.ms") == ("deep/er.ms",)
+    assert files.paths("../moves/", "plays/main.ms") == ()
+    assert used_files("plays/main.ms", ("moves",)).paths("../moves/", "plays/main.ms") == ("../moves/far.ms",)
+    assert files.paths("none/", "plays/main.ms") == files.paths("\0/", "plays/main.ms") == ()
+
+
 def test_a_missing_file_is_answered_with_one_of_nearly_that_name(folder: Path) -> None:
     assert found("naer.ms") == "there is no file `naer.ms`; there is `near.ms`"
     assert found("near.txt") == "there is no file `near.txt`; there is `near.ms`"

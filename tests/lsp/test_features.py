@@ -119,6 +119,19 @@ def test_a_name_that_lacks_what_joins_it_takes_the_place_of_its_words_which_it_i
     assert found["isIncomplete"]
 
 
+def test_scripts_beside_are_offered_to_be_used(client, tmp_path):
+    for name in ("gest.ms", "more.ms", "main.ms", "clip.bvh"):
+        (tmp_path / name).write_text("", encoding="utf-8")
+    uri = (tmp_path / "main.ms").as_uri()
+    both = ['"gest.ms"', '"more.ms"']
+    for text, offered in (('use "', both), ('use "ge"', both[:1]), ("use ", both)):
+        client.open(uri, text)
+        client.diagnostics(uri, 1)
+        items = client.ask_at("completion", uri, 0, min(len(text), 7))["items"]
+        assert [one["textEdit"]["newText"] for one in items] == offered
+        client.close_text(uri)
+
+
 def test_one_motion_is_one_motion(client):
     opened(client, "")
     details = [one["detail"] for one in client.ask_at("completion", URI, 0, 0)["items"]]

@@ -5,10 +5,12 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
+from functools import partial
 from typing import TYPE_CHECKING, Any, Final
 
 from lsprotocol import types
 
+from mlmg_lang.definitions.gather import Listing
 from mlmg_lang.ide.completion import Surroundings
 from mlmg_lang.ide.here import state_before, tokens_around
 from mlmg_lang.ide.matches import matches
@@ -35,6 +37,7 @@ _KINDS: Final[Mapping[What, int]] = {
     What.DEFINITION: types.CompletionItemKind.Function.value,
     What.PARAMETER: types.CompletionItemKind.Variable.value,
     What.ARGUMENT: types.CompletionItemKind.Field.value,
+    What.FILE: types.CompletionItemKind.File.value,
     What.WORD: types.CompletionItemKind.Keyword.value,
     What.UNIT: types.CompletionItemKind.Unit.value,
 }
@@ -152,13 +155,19 @@ def _detail(one: Completion) -> str:
 def _surroundings(snapshot: Snapshot, offset: int) -> Surroundings:
     """Return what a text is completed against; without a library, its own definitions and the language's words."""
     definitions = snapshot.analysis.made.gathered.definitions  # names alone are asked for, so places make no difference
+    paths = partial(_paths, snapshot.analysis)
     if snapshot.shelved is None:
         names = Names(Nothing())
-        return Surroundings(names, definitions, flow.unknown(names), Offers(names, NoFits()))
+        return Surroundings(names, definitions, flow.unknown(names), Offers(names, NoFits()), paths)
     names = snapshot.shelved.names
     before = state_before(snapshot.analysis, offset, names, snapshot.kept.get("before"))
     snapshot.kept["before"] = before
-    return Surroundings(names, definitions, before.state, snapshot.shelved.offers)
+    return Surroundings(names, definitions, before.state, snapshot.shelved.offers, paths)
+
+
+def _paths(analysis: Analysis, begun: str) -> Iterable[str]:
+    files = analysis.question.files
+    return files.paths(begun, analysis.source.name) if isinstance(files, Listing) else ()
 
 
 # --- what there is to read ---

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 from mlmg_lang.definitions.parameters import Kind, Kinds, Signature, signatures
 from mlmg_lang.diagnostics import Diagnostic, Note
@@ -18,7 +18,19 @@ from mlmg_lang.spelling import normal
 MAX_FILES = 100
 """The most files that a script may use, itself and by way of others."""
 
-__all__ = ["Definitions", "Files", "Gathered", "Kind", "Kinds", "NoFiles", "Signature", "Used", "gather", "gather_with"]
+__all__ = [
+    "Definitions",
+    "Files",
+    "Gathered",
+    "Kind",
+    "Kinds",
+    "Listing",
+    "NoFiles",
+    "Signature",
+    "Used",
+    "gather",
+    "gather_with",
+]
 
 
 class Files(Protocol):
@@ -30,6 +42,19 @@ class Files(Protocol):
         Parameters
         ----------
         path : as written. user : the name of the file that it is written in.
+        """
+
+
+@runtime_checkable
+class Listing(Protocol):
+    """Where it can be told which files there are to use."""
+
+    def paths(self, begun: str, user: str) -> Sequence[str]:
+        """Return the paths that the beginning of one could become.
+
+        Parameters
+        ----------
+        user : the name of the file that it is written in.
         """
 
 

@@ -6,7 +6,7 @@ the names of each, and their order, from what the library `offers`.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import chain
 from typing import Final
@@ -19,7 +19,7 @@ from mlmg_lang.ide.offers import Completion, Offers, What, best_fit
 from mlmg_lang.ide.reach import Below, Reach, expression, left_of_with
 from mlmg_lang.ide.words import WORDS
 from mlmg_lang.parsing import syntax
-from mlmg_lang.parsing.lexical import script_name
+from mlmg_lang.parsing.lexical import in_quotes, script_name
 from mlmg_lang.parsing.line_parser import accepted
 from mlmg_lang.parsing.structure import SUB
 from mlmg_lang.parsing.tokens import NAMES, Token
@@ -57,12 +57,19 @@ class Offered:
 
 @dataclass(frozen=True, slots=True)
 class Surroundings:
-    """What a text is completed against; `state`: what may be playing before the statement."""
+    """What a text is completed against.
+
+    Attributes
+    ----------
+    state : what may be playing before the statement.
+    paths : gives the paths of files that could be used, from the beginning of one.
+    """
 
     names: Names
     definitions: Definitions
     state: State
     offers: Offers
+    paths: Callable[[str], Iterable[str]] = lambda _: ()
 
 
 def complete(cursor: Cursor | None, offset: int, around: Surroundings) -> Offered:
@@ -144,7 +151,7 @@ class _Completer:
             case ["LET", *rest] if "EQUALS" not in rest:
                 return
             case ["USE"]:
-                return
+                yield map(_path, self.around.paths(self.cursor.word))
             case ["END"]:
                 yield self._ends()
             case [*_, "WAIT" | "FOR"]:
@@ -237,6 +244,10 @@ class _Completer:
                 continue
             says = "defined here" if let.parameters is None else f"takes {len(let.parameters)}"
             yield Completion(script_name(name), name, What.DEFINITION, says=says)
+
+
+def _path(path: str) -> Completion:
+    return Completion(in_quotes(path), path, What.FILE, says="a script")
 
 
 def _named(parameter: syntax.Parameter) -> Completion:

@@ -21,6 +21,7 @@ class What(StrEnum):
     DEFINITION = "definition"
     PARAMETER = "parameter"
     ARGUMENT = "argument"
+    FILE = "file"
     WORD = "word"
     UNIT = "unit"
 

@@ -115,5 +115,10 @@ def script_name(name: str) -> str:
     """Return a name as a script has to write it: in quotes if it could be taken for something else."""
     if is_name(name) and name not in reserved_words(motion_script()):
         return name
-    escaped = name.replace("\\", "\\\\").replace('"', '\\"')
+    return in_quotes(name)
+
+
+def in_quotes(text: str) -> str:
+    """Return a name or path as a script has it in quotes."""
+    escaped = text.replace("\\", "\\\\").replace('"', '\\"')
     return f'"{escaped}"'

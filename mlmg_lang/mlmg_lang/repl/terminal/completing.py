@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
+from functools import partial
 from pathlib import Path
 from typing import Final
 
@@ -12,6 +13,7 @@ from prompt_toolkit.completion import CompleteEvent, Completer
 from prompt_toolkit.completion import Completion as Shown
 from prompt_toolkit.document import Document
 
+from mlmg_lang.definitions.gather import Listing
 from mlmg_lang.ide.completion import Surroundings
 from mlmg_lang.ide.fuzzy import matching
 from mlmg_lang.ide.matches import matches
@@ -135,7 +137,9 @@ def surroundings_of(session: Session, uses: Counter[str]) -> Surroundings:
     state = session.state or flow.begin(session.names, stage.performer.start)
     definitions = session.analyse("").definitions
     offers = Offers(session.names, StageFits(session.library, stage), uses)
-    return Surroundings(session.names, definitions, state, offers)
+    files = session.files
+    paths = partial(files.paths, user="-") if isinstance(files, Listing) else lambda _: ()
+    return Surroundings(session.names, definitions, state, offers, paths)
 
 
 def _plain(word: str, offered: Iterable[str]) -> Iterator[Shown]:
