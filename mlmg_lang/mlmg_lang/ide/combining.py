@@ -6,10 +6,8 @@ They have a motion in common with it on some graph, or can be shared out with it
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 
 from mlmg_lang.diagnostics import Diagnostic
-from mlmg_lang.ide.offers import Completion
 from mlmg_lang.parsing import syntax
 from mlmg_lang.parsing.tokens import Token
 from mlmg_lang.planning.finding.search import Search, is_fixed
@@ -21,32 +19,8 @@ from mlmg_lang.source import Source
 _ENDS_AND = frozenset({"WITH", "OR", "COMMA", "EQUALS"})
 
 
-@dataclass(frozen=True, slots=True)
-class Partners:
-    """What can stand right of an `and`.
-
-    Attributes
-    ----------
-    motions : by graph, those of which a name needs one there.
-    """
-
-    names: Names
-    motions: Mapping[str, Collection[str]]
-
-    def has(self, one: Completion) -> bool:
-        """Return whether a name of a graph can, there or, as it is written without the graph's name, on another."""
-        own = self.motions.get(one.graph or "", frozenset())
-        if any(motion in own for motion in one.motions):
-            return True
-        for graph, motions in self.motions.items():
-            match = self.names.find_unqualified(graph, one.name) if graph != one.graph else None
-            if match is not None and any(motion in motions for motion in match.entry.motions):
-                return True
-        return False
-
-
-def partners(left: syntax.Motion, graphs: Sequence[str], names: Names, *, whole: bool) -> Partners | None:
-    """Return what can stand right of an `and`; None if nobody knows, as what stands left of it is nothing.
+def partners(left: syntax.Motion, graphs: Sequence[str], names: Names, *, whole: bool) -> frozenset[str] | None:
+    """Return the names that can stand right of an `and`; None if nobody knows, as what stands left of it is nothing.
 
     Parameters
     ----------
@@ -65,7 +39,8 @@ def partners(left: syntax.Motion, graphs: Sequence[str], names: Names, *, whole:
     if not whole:
         for graph in graphs:
             fitting[graph] = fitting[graph].union(*_shared(graph, on, names))
-    return Partners(names, fitting)
+    entries = ((entry, fitting[graph]) for graph in graphs for entry in names.entries(graph))
+    return frozenset([entry.name for entry, motions in entries if not motions.isdisjoint(entry.motions)])
 
 
 def _shared(graph: str, on: Mapping[str, Collection[str]], names: Names) -> Iterator[Collection[str]]:

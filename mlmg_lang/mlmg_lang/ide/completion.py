@@ -13,8 +13,8 @@ from typing import Final
 
 from mlmg_lang.definitions.gather import Definitions, Kind
 from mlmg_lang.ide.arguments import argument_at, parameter_kinds
-from mlmg_lang.ide.combining import Partners
 from mlmg_lang.ide.cursor import Cursor
+from mlmg_lang.ide.fuzzy import matching
 from mlmg_lang.ide.offers import Completion, Offers, What, best_fit
 from mlmg_lang.ide.reach import Below, Reach, expression, left_of_with
 from mlmg_lang.ide.words import WORDS
@@ -75,7 +75,7 @@ class Surroundings:
 def complete(cursor: Cursor | None, offset: int, around: Surroundings) -> Offered:
     """Return what could be written at a cursor, the best first; nothing without one.
 
-    Nothing is left out for what has been written of the word: that is up to `matches`.
+    But for definitions, nothing is left out for what has been written of the word: that is up to `matches`.
 
     Parameters
     ----------
@@ -180,7 +180,8 @@ class _Completer:
         if graph is not None:
             is_right_behind = own[-1].type in NAMES
             joined = own[:-1] if is_right_behind else own
-            partners = self.reach.partners(joined, (graph,), whole=not is_right_behind)
+            graphs = self.around.names.all_levels() if is_right_behind else (graph,)
+            partners = self.reach.partners(joined, graphs, whole=not is_right_behind)
             yield _among(partners, self._on(graph, above)) if (above := self.reach.above(graph, own)) else ()
             return
         if own and own[-1].type in NAMES | {"RIGHT"}:
@@ -236,11 +237,15 @@ class _Completer:
 
     def _definitions(self, before: Sequence[Token]) -> Iterator[Completion]:
         definitions, own = self.around.definitions, expression(before)
-        for number, (name, let) in enumerate(definitions.lets.items()):
+        # Others would be left out later; to try them takes time.
+        meant = frozenset(matching(self.cursor.word, definitions.lets, str))
+        n_tried = 0
+        for name, let in definitions.lets.items():
             signature = definitions.signatures.get(name)
-            if before and signature is not None and signature.lasts:
-                continue  # It is a whole statement.
-            if number < _MOST_TRIED and not self.reach.takes(own, name):
+            if name not in meant or (before and signature is not None and signature.lasts):
+                continue  # What says how long is a whole statement.
+            n_tried += let.parameters is None
+            if n_tried <= _MOST_TRIED and not self.reach.takes(own, name):
                 continue
             says = "defined here" if let.parameters is None else f"takes {len(let.parameters)}"
             yield Completion(script_name(name), name, What.DEFINITION, says=says)
@@ -255,9 +260,9 @@ def _named(parameter: syntax.Parameter) -> Completion:
     return Completion(text, text, What.ARGUMENT, says="")
 
 
-def _among(partners: Partners | None, found: Iterable[Completion]) -> Iterable[Completion]:
+def _among(partners: Collection[str] | None, found: Iterable[Completion]) -> Iterable[Completion]:
     """Return what is no name of a graph, or can stand with what is left of an `and`."""
-    return found if partners is None else [one for one in found if one.graph is None or partners.has(one)]
+    return found if partners is None else [one for one in found if one.graph is None or one.name in partners]
 
 
 def _graph(graph: str, says: str) -> Completion:

@@ -14,7 +14,7 @@ from mlmg_lang.definitions.expand import Expander
 from mlmg_lang.definitions.gather import Definitions
 from mlmg_lang.diagnostics import Diagnostic
 from mlmg_lang.ide.arguments import open_parentheses
-from mlmg_lang.ide.combining import Partners, is_inner, left_of_and, partners
+from mlmg_lang.ide.combining import is_inner, left_of_and, partners
 from mlmg_lang.parsing import syntax
 from mlmg_lang.parsing.build_syntax import name_from_token
 from mlmg_lang.parsing.lexical import script_name
@@ -89,8 +89,8 @@ class Reach:
             if (parent := names.parent(graph)) is not None
         ]
 
-    def partners(self, own: Sequence[Token], graphs: Sequence[str], *, whole: bool) -> Partners | None:
-        """Return what can stand behind an expression that ends with `and`; None if nothing is known of that.
+    def partners(self, own: Sequence[Token], graphs: Sequence[str], *, whole: bool) -> frozenset[str] | None:
+        """Return the names that can stand behind an expression that ends with `and`; None if nothing is known of that.
 
         Parameters
         ----------

@@ -150,6 +150,7 @@ def test_behind_and_stands_what_has_something_in_common_or_can_run_at_the_same_t
     assert {"Idle_01", "IDLE", "Idle_02"} & set(texts("Idle_02 and ¦")) == {"IDLE", "Idle_02"}
     assert texts("Upper-Body (TALK and ¦") == ["IDLE", "TALK", "Talk_01", "Talk_02", "not"]
     assert texts("WALK with Upper-Body (TALK and ¦") == ["IDLE", "TALK", "Talk_01", "Talk_02", "not"]
+    assert "SWING_HAND" in texts("TALK and Upper-Body ¦")
     assert "Idle_02" in texts("WALK and not ¦")
     assert "Idle_02" in texts("WALK or ¦")
     assert {"for", "once", "and", "or"} <= set(texts("WALK and PAIR ¦", defined=defined))
@@ -188,6 +189,12 @@ def test_only_definitions_are_offered_that_fit(text: str, offered: set[str], tex
         # What is wrong with a definition that is not used is told there.
         told = analyse(Source(f"{DEFINED.replace('let ROUND = ROUND', '')}{whole}"), left_hand, "Walk_01").diagnostics
         assert not [m.message for m in told if m.severity == "error"], whole
+
+
+def test_however_many_definitions_there_are_those_that_are_meant_are_tried(texts: Texts) -> None:
+    defined = "\n".join(f"let D_{number} = WALK" for number in range(60))
+    assert "D_59" in texts("D_59¦", defined=defined)
+    assert "D_59" not in texts("WALK with D_59¦", defined=defined)
 
 
 def test_a_definition_that_rule_1_forbids_now_is_not_offered(texts: Texts) -> None:
