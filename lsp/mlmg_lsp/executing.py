@@ -14,6 +14,7 @@ from pygls.exceptions import JsonRpcException, JsonRpcInvalidParams
 from pygls.lsp.server import LanguageServer
 
 from mlmg_lsp.asked import Asked, Refused, asked_from
+from mlmg_lsp.background import Background
 from mlmg_lsp.documents import Documents
 from mlmg_lsp.features import COMMANDS, answer_named
 from mlmg_lsp.open_text import Snapshot, path_of
@@ -32,12 +33,17 @@ class Executor:
     """Executes commands for one client."""
 
     def __init__(
-        self, server: LanguageServer, documents: Documents, snapshot: Callable[[str], Awaitable[Snapshot]]
+        self,
+        server: LanguageServer,
+        documents: Documents,
+        snapshot: Callable[[str], Awaitable[Snapshot]],
+        background: Background,
     ) -> None:
-        """Take what speaks to the client, and what gives an open text with all that is known of it."""
+        """Take what speaks to the client, what gives an open text with all that is known, and where it is shown."""
         self._server = server
         self._documents = documents
         self._snapshot = snapshot
+        self._background = background
         self._pages = Pages()
         self._written: set[Path] = set()
 
@@ -64,7 +70,7 @@ class Executor:
         if asked.to is not None:
             self._written.add(asked.to)
         if asked.shown:
-            await self._show(done, asked)
+            self._show(done, asked)
         return done.result
 
     def end(self) -> None:
@@ -104,26 +110,28 @@ class Executor:
         self._say(f"{path} was left as it is.")
         return False
 
-    async def _show(self, done: Done, asked: Asked) -> None:
-        """Show what came of a command: a page in the editor, where that can show one; else where it is, in words."""
-        said = done.said
+    def _show(self, done: Done, asked: Asked) -> None:
+        """Show what came of a command; the client may take its time for a page, or never say that it is shown."""
         if done.page is not None:
-            name, text = done.page
-            path = self._pages.write(asked.uri, name, text)
-            if await self._has_shown(path):
-                return
-            said = f"{said} ({path})" if said else f"written to {path}"
-        if said:
-            self._say(said)
+            path = self._pages.write(asked.uri, *done.page)
+            self._background.begin(self._show_page(path, done.said))
+        elif done.said:
+            self._say(done.said)
+
+    async def _show_page(self, path: Path, said: str) -> None:
+        """Show a page in the editor, where that can show one; else tell where it is."""
+        if not await self._has_shown(path):
+            self._say(f"{said} ({path})" if said else f"written to {path}")
 
     async def _has_shown(self, path: Path) -> bool:
         if not self._documents.client.shows:
             return False
         try:
             params = types.ShowDocumentParams(path.as_uri(), external=False, take_focus=True)
-            return (await self._server.window_show_document_async(params)).success
+            answer = await self._server.window_show_document_async(params)
         except JsonRpcException:
             return False
+        return answer is not None and answer.success  # an answer may have no result at all
 
     def _say(self, message: str) -> None:
         self._server.window_show_message(types.ShowMessageParams(types.MessageType.Info, message))

@@ -77,16 +77,26 @@ class Protocol(LanguageServerProtocol):
         if not isinstance(raw, dict):
             _log.warning("a message that is no object was passed over")
             return
-        asking = (raw.get("id"), raw.get("method"))
+        if raw.get("error", ...) is None:  # as some clients say that there is none
+            del raw["error"]
+        number = raw.get("id")
         try:
             self.handle_message(self.structure_message(raw))
         except Exception as error:
             _log.warning("a message that is not as it should be was passed over: %s", error)
-            self._refuse(asking, error)
+            if raw.get("method") is None:
+                self._give_up(number)
+            else:
+                self._refuse(number, error)
 
-    def _refuse(self, asking: tuple[Any, Any], error: Exception) -> None:
-        number, method = asking
-        if isinstance(number, int | str) and method is not None:
+    def _give_up(self, number: Any) -> None:
+        """Let who waits for an answer of the client know that it cannot be understood."""
+        future = self._request_futures.pop(number, None) if isinstance(number, int | str) else None
+        if future is not None and not future.done():
+            future.set_exception(JsonRpcInvalidParams("the answer is not as it should be"))
+
+    def _refuse(self, number: Any, error: Exception) -> None:
+        if isinstance(number, int | str):
             known = error if isinstance(error, JsonRpcException) else JsonRpcInvalidParams(str(error))
             self._send_response(number, None, known.to_response_error())
 

@@ -49,7 +49,7 @@ class ClientSession:
         self._asker = Asker(server, self.documents, self.background)
         self._finder = LibraryFinder(server, self.workspace, self.documents, self.background, self._take_library)
         self.foresight = Foresight(self._get_hints, partial(self._asker.refresh, "inlay_hint"), self._tell_not_foreseen)
-        self.executor = Executor(server, self.documents, self.snapshot)
+        self.executor = Executor(server, self.documents, self.snapshot, self.background)
 
     # --- beginning and end ---
 

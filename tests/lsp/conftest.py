@@ -32,7 +32,7 @@ class Client:
         self._messages: Queue[Any] = Queue()
         self._passed_over: list[Any] = []
         self._number = 0
-        self._answers: dict[str, Any] = {}
+        self._answers: dict[str, Mapping[str, Any] | None] = {}
         Thread(target=self._read, args=(process.stdout,), daemon=True).start()
 
     # --- messages ---
@@ -70,7 +70,11 @@ class Client:
 
     def answer_with(self, method: str, result: Any) -> None:
         """Answer requests of the server by this."""
-        self._answers[method] = result
+        self.answer_by(method, {"result": result})
+
+    def answer_by(self, method: str, answer: Mapping[str, Any] | None) -> None:
+        """Answer requests of the server by a message with this, or not at all."""
+        self._answers[method] = answer
 
     def wait(self, wanted: Callable[[Any], bool]) -> Any:
         """Return the first message that is wanted, from those passed over so far on."""
@@ -110,7 +114,9 @@ class Client:
                 pass
             message = json.loads(stdout.read(length))
             if "method" in message and "id" in message:
-                self.send(id=message["id"], result=self._answers.get(message["method"]))
+                answer = self._answers.get(message["method"], {"result": None})
+                if answer is not None:
+                    self.send(id=message["id"], **answer)
             self._messages.put(message)
         self._messages.put(None)
 

@@ -195,11 +195,17 @@ def test_what_will_be_played_is_explained_in_a_document_of_the_editor(client, sc
     assert not page.exists()
 
 
-@pytest.mark.parametrize("answer", [None, {"success": False}])
+@pytest.mark.parametrize(
+    "answer",
+    [
+        *(None, {"result": {"success": False}}, {"result": None}, {"result": "yes"}, {"result": {}}),
+        *({"error": {"code": -32603, "message": "no"}}, {"error": None}),
+    ],
+)
 def test_where_the_editor_shows_no_documents_it_is_told_where_the_text_is(start, script, answer):
     client = start()
     client.initialize({} if answer is None else SHOWING)
-    client.answer_with("window/showDocument", answer)
+    client.answer_by("window/showDocument", answer)
     client.open(script.as_uri(), TEXT)
     client.ask("workspace/executeCommand", command("explain", uri=script.as_uri()))
     message = client.wait_for("window/showMessage")["message"]
@@ -207,6 +213,20 @@ def test_where_the_editor_shows_no_documents_it_is_told_where_the_text_is(start,
     client.leave()
     asked = "window/showDocument" in [one.get("method") for one in client.rest()]
     assert asked == (answer is not None)
+
+
+def test_an_answer_may_say_that_it_is_no_error(client, script):
+    client.answer_by("window/showDocument", {"result": {"success": True}, "error": None})
+    client.ask("workspace/executeCommand", command("explain", uri=script.as_uri()))
+    client.leave()
+    assert "window/showMessage" not in [one.get("method") for one in client.rest()]
+
+
+def test_a_command_is_done_though_the_editor_does_not_say_whether_it_has_shown_what_came_of_it(client, script):
+    client.answer_by("window/showDocument", None)
+    for _ in range(2):
+        assert client.ask("workspace/executeCommand", command("explain", uri=script.as_uri()))["text"]
+        assert path_of(client.wait_for("window/showDocument")["uri"]).exists()
 
 
 def test_a_command_is_asked_for_its_candidates_where_it_stands(client, script):
