@@ -8,20 +8,21 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from itertools import pairwise
-from typing import TypeAlias
+from itertools import groupby, pairwise
+from typing import Final, TypeAlias
 
 from mlmg_lang.parsing.tokenize import tokenize
 from mlmg_lang.parsing.tokens import NAMES, NUMBERS, Token
 from mlmg_lang.source import Source, Span
 
+_NO_WORDS: Final = frozenset({"NEWLINE", "SEMICOLON", "COMMENT"})
 _Place: TypeAlias = tuple[int, int, bool]
 """How many words and comments stand before a line end, and whether a `;` that has to stay stands right before it."""
 
 
 @dataclass(frozen=True, slots=True)
 class Change:
-    """Whole lines of a text, and what is to take their place."""
+    """A stretch of a text, and what is to take its place."""
 
     span: Span
     text: str
@@ -47,6 +48,26 @@ def line_changes(before: Source, after: str) -> list[Change]:
     found = pairwise(_cuts(before, after))
     changes = (Change(Span(start, end), after[begin:stop]) for (start, begin), (end, stop) in found)
     return [one for one in changes if before.slice(one.span) != one.text]
+
+
+def changes_within_lines(before: Source, change: Change) -> list[Change]:
+    """Return what of a change leaves lines and their indentation as they are: words, and the spaces between them.
+
+    That can be made line by line where the change as a whole joins lines.
+    """
+    text = before.slice(change.span)
+    old, new = tokenize(Source(text)), tokenize(Source(change.text))
+    if _words(old) != _words(new):
+        return []
+    spans = iter([token.span for token in new if _is_word(token)])
+    found = []
+    for words in _lines(old):
+        places = [next(spans) for _ in words]
+        written = change.text[places[0].start : places[-1].end]
+        if len(Source(written).line_starts) == 1:
+            start = change.span.start
+            found.append(Change(Span(start + words[0].span.start, start + words[-1].span.end), written))
+    return [one for one in found if before.slice(one.span) != one.text]
 
 
 def line_end_of(source: Source) -> str:
@@ -83,9 +104,21 @@ def _cuts_inside(old: Sequence[Token], new: Sequence[Token]) -> Iterator[tuple[i
             yield from ((one.offset, news[min(one.number, len(news) - 1)].offset) for one in olds)
 
 
+def _is_word(token: Token) -> bool:
+    return token.type not in _NO_WORDS
+
+
+def _lines(tokens: Sequence[Token]) -> Iterator[list[Token]]:
+    """Yield the words of each line that has some."""
+    for is_end, line in groupby(tokens, lambda token: token.type == "NEWLINE"):
+        words = [] if is_end else [token for token in line if _is_word(token)]
+        if words:
+            yield words
+
+
 def _words(tokens: Sequence[Token]) -> list[str]:
     """Return of what kind the words are, as far as formatting leaves that as it is."""
-    kinds = (token.type for token in tokens if token.type not in ("NEWLINE", "SEMICOLON", "COMMENT"))
+    kinds = (token.type for token in tokens if _is_word(token))
     return ["NAME" if kind in NAMES else "NUMBER" if kind in NUMBERS else kind for kind in kinds]
 
 
@@ -96,7 +129,7 @@ def _before_semicolons(tokens: Sequence[Token]) -> set[int]:
     for token in tokens:
         if token.type == "SEMICOLON":
             found.add(n_words)
-        n_words += token.type not in ("NEWLINE", "SEMICOLON", "COMMENT")
+        n_words += _is_word(token)
     return found
 
 

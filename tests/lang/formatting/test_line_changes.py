@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from hypothesis.strategies import SearchStrategy
 
 from mlmg_lang.formatting.format_script import format_source
-from mlmg_lang.formatting.line_changes import Change, line_changes, line_end_of, with_line_ends
+from mlmg_lang.formatting.line_changes import Change, changes_within_lines, line_changes, line_end_of, with_line_ends
 from mlmg_lang.source import Source
 
 PIECES = [
@@ -56,6 +56,20 @@ def test_each_line_changes_by_itself_where_that_can_be(text: str, expected: list
     assert [one.text for one in changes_of(text)] == expected
 
 
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("repeat  2{\n\n}\n", ["repeat 2 {"]),
+        ("choose{3 :WALK\n |  IDLE  for 3s}\n", ["choose { 3: WALK", "| IDLE for 3 sec }"]),
+        ("WALK  with A\n  with   B # so\n", ["WALK with A", "with B"]),
+        ("choose{\nWALK|\nA;B}\n", ["choose {"]),
+    ],
+)
+def test_within_lines_words_change_and_the_spaces_between_them(text: str, expected: list[str]) -> None:
+    found = [changes_within_lines(Source(text), one) for one in changes_of(text)]
+    assert [part.text for parts in found for part in parts] == expected
+
+
 @CALM
 @given(data=st.data())
 def test_a_script_says_the_same_whichever_changes_are_made(
@@ -63,7 +77,9 @@ def test_a_script_says_the_same_whichever_changes_are_made(
 ) -> None:
     text = data.draw(scripts)
     changes = changes_of(text)
-    made = changed(text, data.draw(st.lists(st.sampled_from(changes), unique=True)) if changes else ())
+    some = data.draw(st.lists(st.sampled_from(changes), unique=True)) if changes else []
+    parts = [part for one in changes if one not in some for part in changes_within_lines(Source(text), one)]
+    made = changed(text, [*some, *(data.draw(st.lists(st.sampled_from(parts), unique=True)) if parts else ())])
     assert facts(made) == facts(text)
     assert format_source(Source(made)) == format_source(Source(text))
 

@@ -51,12 +51,16 @@ def test_after_any_edits_it_is_that_of_the_whole(snapshots, encoding):
 def test_of_some_lines_it_is_what_of_all_of_it_lies_there(snapshots):
     draw = random.Random(1)
     for snapshot in snapshots("utf-16", 40):
-        all_edits = formatting(snapshot, ALL)
+        text, all_edits = snapshot.analysis.source.text, formatting(snapshot, ALL)
         n_lines = len(snapshot.analysis.source.line_starts)
         for begin in range(n_lines):
             end = min(begin + draw.choice((0, 0, 1, 3, 8)), n_lines - 1)
             found = of_lines(snapshot, begin, end)
-            assert found == [one for one in all_edits if begin <= one.range.start.line and last_of(one) <= end]
+            whole = [one for one in all_edits if begin <= one.range.start.line and last_of(one) <= end]
+            others = [one for one in found if one not in whole]  # of what would change other lines too
+            assert [one for one in found if one in whole] == whole
+            assert all(one.range.start.line == one.range.end.line for one in others)
+            assert canonical(applied(text, found, "utf-16")) == canonical(text)
             typed = types.DocumentOnTypeFormattingParams(TEXT, types.Position(begin, 0), "}", OPTIONS)
             assert on_type_formatting(snapshot, typed) == of_lines(snapshot, begin, begin)
 
@@ -107,6 +111,11 @@ def last_of(edit: types.TextEdit) -> int:
         ("repeat 2 {\nWALK   for 3s\n¦\nIDLE  once\n}\n", "\n", "repeat 2 {\n    WALK for 3 sec\n\nIDLE  once\n}\n"),
         ("repeat 2 {\r\n\tWALK   for 3s\r\n\t¦\r\n\t}", "\n", "repeat 2 {\r\n    WALK for 3 sec\r\n\t\r\n\t}"),
         ("repeat 2 {\nWALK  FOR 3s\n¦\nIDLE  once\n}\n", "\n", "repeat 2 {\n    WALK  FOR 3s\n\nIDLE  once\n}\n"),
+        ("repeat 2{\n    ¦\n}\n", "\n", "repeat 2 {\n    \n}\n"),
+        ("choose{\n  WALK  for 05 s # so\n¦|IDLE\n}\n", "\n", "choose{\n    WALK for 5 sec  # so\n|IDLE\n}\n"),
+        ("choose{\n  WALK  for 05 s\n¦|IDLE\n}\n", "\n", "choose{\n  WALK for 5 sec\n|IDLE\n}\n"),
+        ("choose{\n  WALK  for 05 s;TALK\n¦|IDLE\n}\n", "\n", "choose{\n    WALK for 5 sec\n    TALK\n|IDLE\n}\n"),
+        ("WALK   with  Sub TALK\n¦ for 3s\n", "\n", "WALK with Sub TALK\n for 3s\n"),
         ("WALK; IDLE  once # so\n¦TALK  once\n", "\n", "WALK\nIDLE once  # so\nTALK  once\n"),
     ],
 )
