@@ -26,6 +26,7 @@ class Client:
     related, tags, links : whether diagnostics may have other places, tags, and links to what they mean.
     snippets : whether completions may have places to fill in.
     markdown_of_completions, markdown_of_hovers : whether what there is to read may be Markdown.
+    unmarked : whether it may mark none of the things that a definition takes.
     indents : whether it can be told how to indent what a completion writes.
     versioned : whether edits may name the version that they are for.
     resolves_edits : whether it asks for the edit of a code action when that is chosen.
@@ -43,6 +44,7 @@ class Client:
     snippets: bool = False
     markdown_of_completions: bool = False
     markdown_of_hovers: bool = False
+    unmarked: bool = False
     indents: bool = False
     versioned: bool = False
     resolves_edits: bool = False
@@ -78,6 +80,7 @@ def client_from(capabilities: types.ClientCapabilities) -> Client:
         snippets=bool(has("text_document.completion.completion_item.snippet_support")),
         markdown_of_completions="markdown" in texts("text_document.completion.completion_item.documentation_format"),
         markdown_of_hovers="markdown" in texts("text_document.hover.content_format"),
+        unmarked=bool(has("text_document.signature_help.signature_information.no_active_parameter_support")),
         indents=modes.issuperset(types.InsertTextMode),
         versioned=bool(has("workspace.workspace_edit.document_changes")),
         resolves_edits="edit" in resolved,

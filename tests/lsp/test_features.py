@@ -291,6 +291,8 @@ def test_a_definition_is_renamed_wherever_it_is_used_and_a_motion_is_not(client)
     place = {"textDocument": {"uri": URI}, "position": {"line": 2, "character": 7}}
     refused = client.outcome(client.begin("textDocument/rename", place | {"newName": "x"}))
     assert "`WALK` is a tag of the library" in refused["error"]["message"]
+    unasked = client.outcome(client.begin("textDocument/prepareRename", place))
+    assert [one["error"]["code"] for one in (refused, unasked)] == [-32803, -32803]
 
 
 def test_names_are_renamed_in_the_files_that_a_script_uses_too(start, tmp_path):
@@ -314,7 +316,17 @@ def test_what_a_definition_takes_is_shown_while_it_is_used(client):
     opened(client, DEFINED)
     shown = client.ask_at("signatureHelp", URI, 3, 12)
     assert shown["signatures"][0]["label"] == "greet(who, t = 2 sec)"
-    assert shown["activeParameter"] == 1
+    assert shown["activeParameter"] == shown["signatures"][0]["activeParameter"] == 1
+
+
+@pytest.mark.parametrize(("unmarked", "active"), [(True, None), (False, 2)])
+def test_that_nothing_is_left_to_be_given_is_told_as_the_client_can_take_it(start, unmarked, active):
+    client = start()
+    support = {"signatureInformation": {"noActiveParameterSupport": unmarked}}
+    client.initialize({"textDocument": {"signatureHelp": support}})
+    opened(client, "let greet(who, t = 2 sec) = who for t\ngreet(IDLE, 3 sec, \n")
+    shown = client.ask_at("signatureHelp", URI, 1, 19)
+    assert (shown["activeParameter"], shown["signatures"][0]["activeParameter"]) == (active, active)
 
 
 def test_what_a_text_consists_of_is_told(client):

@@ -132,7 +132,10 @@ def signature_help(snapshot: Snapshot, params: types.SignatureHelpParams) -> typ
         )
         for one in found.parameters
     ]
-    return types.SignatureHelp([types.SignatureInformation(found.label, parameters=told)], 0, found.active)
+    # To a client that has to mark one, a number that there is not comes nearest to none.
+    active = len(told) if found.active is None and not snapshot.client.unmarked else found.active
+    shown = types.SignatureInformation(found.label, parameters=told, active_parameter=active)
+    return types.SignatureHelp([shown], 0, active)
 
 
 def _with(snapshot: Snapshot, users: Users) -> Snapshot:

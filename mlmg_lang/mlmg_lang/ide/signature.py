@@ -99,8 +99,10 @@ def _tokens_before(analysis: Analysis, offset: int) -> Sequence[Token]:
 
 def _active(inside: Sequence[Token], parameters: Sequence[ParameterHelp]) -> int | None:
     """Return the number of the parameter that is being written, from what stands behind its parenthesis."""
-    *before, argument = arguments(inside)
-    name = argument_name(argument)
-    if name is not None:
-        return next((at for at, one in enumerate(parameters) if normal(one.name) == name), None)
-    return len(before) if len(before) < len(parameters) else None
+    *before, last = map(argument_name, arguments(inside))
+    numbers = {normal(one.name): at for at, one in enumerate(parameters)}
+    if last is not None:
+        return numbers.get(last)
+    # Of those that say no name, each is for the next that is free.
+    free = [at for name, at in numbers.items() if name not in before]
+    return next(iter(free[before.count(None) :]), None)

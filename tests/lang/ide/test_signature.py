@@ -31,6 +31,8 @@ def helps(marked: Callable[..., Any]) -> Ask:
         *(("GREET (WALK\n, ¦)", 1), ("GREET(t = 1 sec, x = ¦", 0), ("GREET(t =¦", 1), ("GREET(WALK, 1 sec, ¦", None)),
         *(("GREET(no = ¦", None), ("GREET((WALK, ¦", 0), ("GREET((WALK or TALK), ¦)", 1), ("WALK and GREET(¦", 0)),
         *(("GREET(IDLE # (, ,\n, ¦)", 1), ("repeat 2 { GREET(IDLE, ¦ }", 1), ("IDLE for for GREET(¦", 0)),
+        *(("GREET(t = 1 sec, ¦)", 0), ("GREET(x = WALK, ¦", 1), ("GREET(WALK, t = 1 sec, ¦", None)),
+        *(("GREET(no = 1, ¦", 0), ("GREET(t = 1 sec, WALK, ¦", None)),
         *(("GREET(Upper-Body (TALK ¦", 0), ("GREET(BOTH(WALK, IDLE), ¦", 1), ('"GREET"(¦', 0)),
     ],
 )
