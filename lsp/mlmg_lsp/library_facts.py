@@ -51,16 +51,17 @@ class LibraryFacts:
         path = self.configuration.parent / source
         return Place(str(path.resolve()), Span(0, 0)) if path.is_file() else None
 
-    def tag(self, tag: str) -> tuple[Place, ...]:
-        """Return the lines of the configuration that give a tag to motions."""
+    def tag(self, tag: str, graph: str | None = None) -> tuple[Place, ...]:
+        """Return the lines of the configuration that give a tag to motions, those of one of the graphs first."""
         file = self._file
         tables = {} if file is None else file.document.get("tags", {})
         keys = [
-            ("tags", graph, motion)
-            for graph, motions in (tables.items() if isinstance(tables, dict) else ())
+            ("tags", on, motion)
+            for on, motions in (tables.items() if isinstance(tables, dict) else ())
             for motion, tags in (motions.items() if isinstance(motions, dict) else ())
             if isinstance(tags, list) and tag in tags
         ]
+        keys.sort(key=lambda key: key[1] != graph)
         return tuple(place for key in keys if (place := self._place(key)) is not None)
 
     def graph(self, graph: str) -> Place | None:

@@ -32,6 +32,7 @@ def written(places: tuple[Place | None, ...]) -> list[str]:
 
 def test_a_tag_is_given_on_each_line_whose_list_holds_it(facts):
     assert written(facts.tag("WALK")) == ['Walk = ["WALK"]', '"走" = [', 'Walk = ["SWING", "WALK"]']
+    assert written(facts.tag("WALK", "Upper-Body")) == ['Walk = ["SWING", "WALK"]', 'Walk = ["WALK"]', '"走" = [']
     assert facts.tag("RUN") == ()
 
 

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import Protocol
 
 from mlmg_lang.analysis import Analysis
+from mlmg_lang.ide.layers import graph_at
 from mlmg_lang.ide.occurrences import (
     Occurrence,
     Place,
@@ -27,8 +28,8 @@ class Origins(Protocol):
     def motion(self, motion: str) -> Place | None:
         """Return the file of a motion's clip; None if it is not known."""
 
-    def tag(self, tag: str) -> tuple[Place, ...]:
-        """Return where a tag is given to motions."""
+    def tag(self, tag: str, graph: str | None) -> tuple[Place, ...]:
+        """Return where a tag is given to motions, on one of the graphs first."""
 
     def graph(self, graph: str) -> Place | None:
         """Return where a graph is described; None if it is not known."""
@@ -96,7 +97,7 @@ def _places(analysis: Analysis, found: Occurrence, origins: Origins | None) -> t
         case Sort.FILE:
             file = used_file(analysis, found)
             return () if file is None else (Place(file, Span(0, 0)),)
-    return () if origins is None else _origins(symbol, origins)
+    return () if origins is None else _origins(analysis, found, origins)
 
 
 def used_file(analysis: Analysis, path: Occurrence) -> str | None:
@@ -105,9 +106,10 @@ def used_file(analysis: Analysis, path: Occurrence) -> str | None:
     return next((name for span, name in made.gathered.used.named.items() if made.places(span) == path.span), None)
 
 
-def _origins(symbol: Symbol, origins: Origins) -> tuple[Place, ...]:
+def _origins(analysis: Analysis, found: Occurrence, origins: Origins) -> tuple[Place, ...]:
+    symbol = found.symbol
     if symbol.sort is Sort.TAG:
-        return origins.tag(symbol.name)
+        return origins.tag(symbol.name, graph_at(analysis, found.span))
     of_one = {Sort.MOTION: origins.motion, Sort.GRAPH: origins.graph}.get(symbol.sort)
     place = None if of_one is None else of_one(symbol.name)
     return () if place is None else (place,)

@@ -13,6 +13,7 @@ from typing import Final, Protocol
 from mlmg_lang.analysis import Analysis
 from mlmg_lang.catalog import Catalog
 from mlmg_lang.diagnostics import Diagnostic, Severity
+from mlmg_lang.ide.layers import graph_at
 from mlmg_lang.ide.occurrences import Occurrence, Sort, Statement, Symbol, occurrence_at, statements_at
 from mlmg_lang.ide.sayings import Understood, state_before, understood
 from mlmg_lang.ide.signature import described
@@ -290,23 +291,11 @@ class _Teller:
         yield Part(f"- {len(motions)} motion{'' if len(motions) == 1 else 's'}: {_some(list(map(code, motions)))}")
 
     def _sub(self, found: Occurrence) -> Iterator[Part]:
-        meant = next(filter(None, (self._meant_by_sub(found, one) for one in self.statements)), None)
+        meant = graph_at(self.analysis, found.span)
         says = "the graph below the one that is named before `with`"
         yield Part(f"`Sub`: {says}" if meant is None else f"`Sub` is {code(meant)} here: {says}")
         if meant is not None and self._library is not None:
             yield from self._graph(meant, *self._library)
-
-    def _meant_by_sub(self, found: Occurrence, statement: Statement) -> str | None:
-        """Return the graph of the layer that a `Sub` begins."""
-        item = statement.item
-        command = item.command if isinstance(item, syntax.Let) else item
-        way = understood(self.analysis, command).way if isinstance(command, syntax.Command) else None
-        layers = () if way is None else way.layers
-        spans = [(statement.at(layer.span), layer.graph) for layer in layers]
-        around = [
-            (span, graph) for span, graph in spans if span.start <= found.span.start and found.span.end <= span.end
-        ]
-        return min(around, key=lambda one: one[0].end - one[0].start)[1] if around else None
 
     # --- of the script ---
 

@@ -110,8 +110,8 @@ class Built:
     def motion(self, motion: str) -> Place:
         return Place(f"{motion}.bvh", Span(0, 0))
 
-    def tag(self, tag: str) -> tuple[Place, ...]:
-        return (Place("library.toml", Span(3, 7)),)
+    def tag(self, tag: str, graph: str | None) -> tuple[Place, ...]:
+        return (Place(f"library.toml of {graph}", Span(3, 7)),)
 
     def graph(self, graph: str) -> None:
         return None
@@ -124,7 +124,15 @@ def test_names_of_a_library_lead_to_what_it_was_built_from(marked):
         return [] if found is None else [place.file for place in found.places]
 
     assert places("¦walk01") == ["Walk_01.bvh"]
-    assert places("¦WALK") == ["library.toml"]
+    assert places("¦WALK") == ["library.toml of Full-Body"]
+    for text in (
+        "WALK with Upper-Body ¦TALK",
+        "WALK with Upper-Body (¦TALK or not WAVE_HAND)",
+        "repeat 2 { Upper-Body ¦TALK }",
+        "let G = WALK with Sub (¦TALK)\nG",
+    ):
+        assert places(text) == ["library.toml of Upper-Body"]
+    assert places("HM with Upper-Body ¦TALK") == ["library.toml of None"]
     assert places("¦Upper-Body TALK") == []
 
 
