@@ -32,7 +32,7 @@ class Users:
     Attributes
     ----------
     analyses : without a library: what scripts give names to is known without.
-    unread : why some cannot be read that use the file, or may, in words.
+    unread : why some are not known that use the file, or may, in words.
     left_out : what was not looked at, in words; empty if all was.
     """
 
@@ -132,7 +132,7 @@ def _look(script: Found) -> _Look:
     try:
         data = Path(script.path).read_bytes()
     except OSError as error:
-        return _Look(script.stamp, (), f"cannot be read: {error.strerror}")
+        return _Look(script.stamp, (), f"may use this too, and cannot be read: {error.strerror}")
     # Nearly all can be passed over by this alone.
     paths = paths_in(data.decode("utf-8", "replace")) if b"use" in data.lower() else ()
     return _Look(script.stamp, paths)

@@ -132,7 +132,32 @@ def test_a_parameter_is_refused_where_its_definition_stands_in_what_cannot_be_re
 def test_a_script_that_may_not_be_read_is_told_of(client, folder):
     (folder / "secret.ms").write_text(USER, encoding="utf-8")
     (folder / "secret.ms").chmod(0)
-    assert "secret.ms cannot be read: Permission denied" in refused(client, folder, "hello")
+    assert "secret.ms may use this too, and cannot be read: Permission denied" in refused(client, folder, "hello")
+
+
+def test_a_used_file_that_has_changed_meanwhile_is_not_edited_where_it_no_longer_says_so(start, folder):
+    client = start()
+    client.initialize(VERSIONED, rootUri=folder.as_uri())
+    user = (folder / "scenes" / "user.ms").as_uri()
+    client.open(user, USER)
+    client.diagnostics(user)
+    place = {"textDocument": {"uri": user}, "position": {"line": 2, "character": 0}, "newName": "hello"}
+    assert len(client.ask("textDocument/rename", place)["documentChanges"]) == 2
+    (folder / "gest.ms").write_text(f"# one more line\n{GEST}", encoding="utf-8")
+    error = client.outcome(client.begin("textDocument/rename", place))["error"]
+    assert error["message"].startswith(f"{folder / 'gest.ms'} has changed since the open scripts that use it")
+    client.notify("workspace/didChangeWatchedFiles", {"changes": [{"uri": (folder / "gest.ms").as_uri(), "type": 2}]})
+    changes = client.ask("textDocument/rename", place)["documentChanges"]
+    lines = {name_of(one["textDocument"]["uri"]): one["edits"][0]["range"]["start"]["line"] for one in changes}
+    assert lines == {"gest.ms": 1, "user.ms": 2}
+
+
+def test_a_file_may_be_open_by_way_of_a_link(start, folder):
+    (folder.parent / "link").symlink_to(folder, target_is_directory=True)
+    client = start()
+    client.initialize(VERSIONED, rootUri=folder.as_uri())
+    client.open((folder.parent / "link" / "gest.ms").as_uri(), GEST)
+    assert set(renamed(client, folder.parent / "link", "hello")) == {"gest.ms", "user.ms"}
 
 
 def test_what_is_too_large_to_be_read_is_told_of(client, folder):

@@ -11,7 +11,8 @@ from mlmg_lang.ide import definition as definitions
 from mlmg_lang.ide import hover as hovers
 from mlmg_lang.ide import links, references, rename, signature
 from mlmg_lang.ide.occurrences import Place
-from mlmg_lang.source import Span
+from mlmg_lang.script_files import read_script
+from mlmg_lang.source import Source, Span
 from mlmg_lsp.asked import Refused
 from mlmg_lsp.closed import Users
 from mlmg_lsp.convert import (
@@ -21,6 +22,7 @@ from mlmg_lsp.convert import (
     markup,
     offset_of,
     range_of,
+    source_of,
     workspace_edits,
 )
 from mlmg_lsp.library_facts import LibraryFacts, configuration_of
@@ -107,6 +109,11 @@ def rename_to(snapshot: Snapshot, params: types.RenameParams, users: Users) -> t
         raise Refused(found.why)
     if users.unread:
         raise Refused("; ".join(users.unread))
+    for file in found:
+        if file not in snapshot.opened and _has_changed(source_of(snapshot, file)):
+            raise Refused(
+                f"{file} has changed since the open scripts that use it have read it: open it, or these again"
+            )
     return workspace_edits(
         snapshot,
         {file: [edit_in(snapshot, file, one.span, one.text) for one in edits] for file, edits in found.items()},
@@ -141,6 +148,14 @@ def signature_help(snapshot: Snapshot, params: types.SignatureHelpParams) -> typ
 def _with(snapshot: Snapshot, users: Users) -> Snapshot:
     """Return what is known of a text together with what is known of scripts that are not open."""
     return replace(snapshot, others=(*snapshot.others, *users.analyses))
+
+
+def _has_changed(file: Source) -> bool:
+    """Return whether a file says something else than has been read of it: not all clients tell of that."""
+    try:
+        return read_script(file.name)[0].text != file.text
+    except OSError:
+        return True
 
 
 def _offset(snapshot: Snapshot, position: types.Position) -> int:
