@@ -1,23 +1,22 @@
 """A text and the same in canonical form -> the stretches of whole lines that differ, each as small as can be.
 
-Formatting leaves the words of a text in their order. So both may be cut between the same two words, or comments, where
-both have a line end there: each stretch can then take its new form without the others, and the script says the same.
+Formatting leaves the words of a text in their order, and tokens lie within lines. So both texts are read side by side,
+and cut where both have a line end and the same words and comments before it: each stretch can then take its new form
+without the others, and the script says the same.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from itertools import groupby, pairwise
-from typing import Final, TypeAlias
+from typing import Final
 
 from mlmg_lang.parsing.tokenize import tokenize
 from mlmg_lang.parsing.tokens import NAMES, NUMBERS, Token
 from mlmg_lang.source import Source, Span
 
 _NO_WORDS: Final = frozenset({"NEWLINE", "SEMICOLON", "COMMENT"})
-_Place: TypeAlias = tuple[int, int, bool]
-"""How many words and comments stand before a line end, and whether a `;` that has to stay stands right before it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,14 +25,6 @@ class Change:
 
     span: Span
     text: str
-
-
-@dataclass(frozen=True, slots=True)
-class _LineEnd:
-    """Where a line begins, and how many of those at the same place come before it that are not taken out with a `;`."""
-
-    offset: int
-    number: int
 
 
 def line_changes(before: Source, after: str) -> list[Change]:
@@ -45,9 +36,13 @@ def line_changes(before: Source, after: str) -> list[Change]:
     """
     if before.text == after:
         return []
-    found = pairwise(_cuts(before, after))
-    changes = (Change(Span(start, end), after[begin:stop]) for (start, begin), (end, stop) in found)
-    return [one for one in changes if before.slice(one.span) != one.text]
+    found = []
+    start = begin = 0
+    for end, stop in _cuts(_lines(before), _lines(Source(after))):
+        if before.text[start:end] != after[begin:stop]:
+            found.append(Change(Span(start, end), after[begin:stop]))
+        start, begin = end, stop
+    return found
 
 
 def changes_within_lines(before: Source, change: Change) -> list[Change]:
@@ -56,12 +51,12 @@ def changes_within_lines(before: Source, change: Change) -> list[Change]:
     That can be made line by line where the change as a whole joins lines.
     """
     text = before.slice(change.span)
-    old, new = tokenize(Source(text)), tokenize(Source(change.text))
-    if _words(old) != _words(new):
+    old, new = tokenize(Source(text)), [token for token in tokenize(Source(change.text)) if _is_word(token)]
+    if [_kind(token) for token in old if _is_word(token)] != [_kind(token) for token in new]:
         return []
-    spans = iter([token.span for token in new if _is_word(token)])
+    spans = iter([token.span for token in new])
     found = []
-    for words in _lines(old):
+    for words in _words_by_line(old):
         places = [next(spans) for _ in words]
         written = change.text[places[0].start : places[-1].end]
         if len(Source(written).line_starts) == 1:
@@ -81,82 +76,96 @@ def with_line_ends(text: str, line_end: str) -> str:
     return text if line_end == "\n" else text.replace("\r\n", "\n").replace("\n", line_end)
 
 
-def _cuts(before: Source, after: str) -> Iterator[tuple[int, int]]:
-    """Yield where both texts may be cut, their beginnings and ends too."""
-    yield 0, 0
-    if before.line_starts[1:2] not in ((), (len(before.text),)):
-        for end, begin in _cuts_inside(tokenize(before), tokenize(Source(after))):
-            # A CR and the LF of an empty line below it would be one line end.
-            if before.text[end - 1 : end] != "\r" or after[begin : begin + 1] != "\n":
-                yield end, begin
-    yield len(before.text), len(after)
+# --- stretches ---
 
 
-def _cuts_inside(old: Sequence[Token], new: Sequence[Token]) -> Iterator[tuple[int, int]]:
-    if _words(old) != _words(new):  # quotes without a partner may have joined other words
-        return
-    stay = _before_semicolons(new)
-    ends = _line_ends(new, stay)
-    for place, olds in _line_ends(old, stay).items():
-        if place in ends:
-            news = ends[place]
-            # Of empty lines the first stay.
-            yield from ((one.offset, news[min(one.number, len(news) - 1)].offset) for one in olds)
+def _lines(source: Source) -> list[str]:
+    return [source.text[start:end] for start, end in pairwise((*source.line_starts, len(source.text)))]
+
+
+def _cuts(old: Sequence[str], new: Sequence[str]) -> Iterator[tuple[int, int]]:
+    """Yield where both texts may be cut, up to their ends."""
+    end = stop = at = other = 0
+    while at < len(old) and other < len(new):
+        n_old, n_new = _stretch(old, new, at, other)
+        end += sum(map(len, old[at : at + n_old]))
+        stop += sum(map(len, new[other : other + n_new]))
+        at, other = at + n_old, other + n_new
+        # A CR and the LF of an empty line below it would be one line end.
+        if not (old[at - 1].endswith("\r") and new[other : other + 1] == ["\n"]):
+            yield end, stop
+    yield end + sum(map(len, old[at:])), stop + sum(map(len, new[other:]))
+
+
+def _stretch(old: Sequence[str], new: Sequence[str], at: int, other: int) -> tuple[int, int]:
+    """Return how many lines of each text become each other, from two on before which the same has been said."""
+    if old[at] == new[other] or _signs(old[at]) == _signs(new[other]):
+        return 1, 1
+    if not _signs(old[at]).strip(";"):  # of empty lines the first stay
+        return 1, 0
+    one, like = _Read(old, at), _Read(new, other)
+    while not (one.n_lines and like.n_lines and one.says_the_same_as(like)):
+        first, second = (one, like) if one.size <= like.size else (like, one)
+        if not (first.read() or second.read()):
+            break
+    return one.n_lines, like.n_lines
+
+
+def _signs(line: str) -> str:
+    return "".join(line.split())
+
+
+@dataclass(slots=True)
+class _Read:
+    """What has been read of some lines, from one of them on.
+
+    Attributes
+    ----------
+    parted : whether a `;` stands behind the last word.
+    """
+
+    lines: Sequence[str]
+    begin: int
+    n_lines: int = 0
+    words: list[str] = field(default_factory=list)
+    n_comments: int = 0
+    parted: bool = False
+
+    @property
+    def size(self) -> tuple[int, int, int]:
+        """Return how far this is."""
+        return len(self.words), self.n_comments, self.n_lines > 0
+
+    def read(self) -> bool:
+        """Read one more line, if there is one."""
+        if self.begin + self.n_lines == len(self.lines):
+            return False
+        for token in tokenize(Source(self.lines[self.begin + self.n_lines])):
+            self.n_comments += token.type == "COMMENT"
+            if _is_word(token):
+                self.words.append(_kind(token))
+            self.parted = token.type == "SEMICOLON" or (self.parted and not _is_word(token))
+        self.n_lines += 1
+        return True
+
+    def says_the_same_as(self, canonical: _Read) -> bool:
+        """Return whether the same is in both, and what has to be parted from what follows is so."""
+        same = self.n_comments == canonical.n_comments and self.words == canonical.words
+        return same and (self.parted or not canonical.parted)
 
 
 def _is_word(token: Token) -> bool:
     return token.type not in _NO_WORDS
 
 
-def _lines(tokens: Sequence[Token]) -> Iterator[list[Token]]:
+def _kind(token: Token) -> str:
+    """Return of what kind a word is, as far as formatting leaves that as it is."""
+    return "NAME" if token.type in NAMES else "NUMBER" if token.type in NUMBERS else token.type
+
+
+def _words_by_line(tokens: Sequence[Token]) -> Iterator[list[Token]]:
     """Yield the words of each line that has some."""
     for is_end, line in groupby(tokens, lambda token: token.type == "NEWLINE"):
         words = [] if is_end else [token for token in line if _is_word(token)]
         if words:
             yield words
-
-
-def _words(tokens: Sequence[Token]) -> list[str]:
-    """Return of what kind the words are, as far as formatting leaves that as it is."""
-    kinds = (token.type for token in tokens if _is_word(token))
-    return ["NAME" if kind in NAMES else "NUMBER" if kind in NUMBERS else kind for kind in kinds]
-
-
-def _before_semicolons(tokens: Sequence[Token]) -> set[int]:
-    """Return how many words stand before each `;`."""
-    found: set[int] = set()
-    n_words = 0
-    for token in tokens:
-        if token.type == "SEMICOLON":
-            found.add(n_words)
-        n_words += _is_word(token)
-    return found
-
-
-def _line_ends(tokens: Sequence[Token], stay: set[int]) -> dict[_Place, list[_LineEnd]]:
-    """Return the line ends at each place, and the beginning of the text, which is like one.
-
-    Parameters
-    ----------
-    stay : behind how many words a `;` has to stay.
-    """
-    found: dict[_Place, list[_LineEnd]] = {(0, 0, False): [_LineEnd(0, 0)]}
-    n_words = n_comments = 0
-    parted = False
-    before = ""  # of the line
-    for token in tokens:
-        match token.type:
-            case "NEWLINE":
-                ends = found.setdefault((n_words, n_comments, parted), [])
-                goes = before == "SEMICOLON" and not parted
-                ends.append(_LineEnd(token.span.end, ends[-1].number + (not goes) if ends else 0))
-                before = ""
-                continue
-            case "COMMENT":
-                n_comments += 1
-            case "SEMICOLON":
-                parted = n_words in stay
-            case _:
-                n_words, parted = n_words + 1, False
-        before = before or token.type
-    return found
