@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from bisect import bisect_left
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 
 from lsprotocol import types
 
@@ -41,9 +41,14 @@ def range_formatting(snapshot: Snapshot, params: types.DocumentRangeFormattingPa
 
 
 def on_type_formatting(snapshot: Snapshot, params: types.DocumentOnTypeFormattingParams) -> list[types.TextEdit]:
-    """Return what of that changes the line that has just been finished, and no other."""
+    """Return what of that changes the line that has just been finished, and no other.
+
+    Empty lines stay, and none is put behind the last line: something is about to be written there.
+    """
     line = params.position.line - (params.ch == "\n")
-    return _edits(snapshot, _lines(snapshot, line, line))
+    source, encoding = snapshot.analysis.source, snapshot.client.encoding
+    least = (_least(source, one) for one in _made_in(snapshot, _lines(snapshot, line, line)) if one.text)
+    return [types.TextEdit(range_of(source, one.span, encoding), one.text) for one in least if one is not None]
 
 
 def _all(snapshot: Snapshot) -> Span:
@@ -59,25 +64,42 @@ def _lines(snapshot: Snapshot, first: int, last: int) -> Span:
 
 
 def _edits(snapshot: Snapshot, place: Span) -> list[types.TextEdit]:
-    """Return what changes in some lines; of what would change others too, only what can be made in these alone."""
     source, encoding = snapshot.analysis.source, snapshot.client.encoding
-    return [
-        types.TextEdit(range_of(source, one.span, encoding), one.text)
-        for change in _changes(snapshot, place)
-        for one in _made_in(source, change, place)
-    ]
+    return [types.TextEdit(range_of(source, one.span, encoding), one.text) for one in _made_in(snapshot, place)]
 
 
-def _made_in(source: Source, change: Change, place: Span) -> Sequence[Change]:
-    if _is_in(change, place):
-        return (change,)
-    if change.span.start >= place.end or change.span.end <= place.start:
-        return ()
-    return [one for one in changes_within_lines(source, change) if _is_in(one, place)]
+def _made_in(snapshot: Snapshot, place: Span) -> Iterator[Change]:
+    """Yield what changes in some lines; of what would change others too, only what can be made in these alone."""
+    for change in _changes(snapshot, place):
+        if _is_in(change, place):
+            yield change
+        elif change.span.start < place.end and change.span.end > place.start:
+            parts = changes_within_lines(snapshot.analysis.source, change)
+            yield from (one for one in parts if _is_in(one, place))
 
 
 def _is_in(change: Change, place: Span) -> bool:
     return place.start <= change.span.start and change.span.end <= place.end
+
+
+def _least(source: Source, change: Change) -> Change | None:
+    """Return a change without what stays as it is at its ends, so that cursors stay; None if nothing is left."""
+    before, after = source.slice(change.span), change.text
+    if change.span.end == len(source.text) and before[-1:] not in ("\r", "\n"):
+        after = after.rstrip("\r\n")
+    head = _n_alike(before, after)
+    tail = _n_alike(before[head:][::-1], after[head:][::-1])
+    if before[len(before) - tail - 1 :].startswith("\r\n"):
+        tail -= 1  # no cursor stands there
+    if head == len(before) == len(after):
+        return None
+    return Change(Span(change.span.start + head, change.span.end - tail), after[head : len(after) - tail])
+
+
+def _n_alike(one: str, other: str) -> int:
+    """Return with how many of the same signs two texts begin."""
+    most = min(len(one), len(other))
+    return next((at for at in range(most) if one[at] != other[at]), most)
 
 
 def _changes(snapshot: Snapshot, place: Span) -> Iterator[Change]:

@@ -62,7 +62,9 @@ def test_of_some_lines_it_is_what_of_all_of_it_lies_there(snapshots):
             assert all(one.range.start.line == one.range.end.line for one in others)
             assert canonical(applied(text, found, "utf-16")) == canonical(text)
             typed = types.DocumentOnTypeFormattingParams(TEXT, types.Position(begin, 0), "}", OPTIONS)
-            assert on_type_formatting(snapshot, typed) == of_lines(snapshot, begin, begin)
+            after = applied(text, on_type_formatting(snapshot, typed), "utf-16")
+            assert canonical(after) == canonical(text)
+            assert len(Source(after).line_starts) >= n_lines
 
 
 def test_of_some_lines_no_others_change(snapshots):
@@ -99,7 +101,11 @@ def last_of(edit: types.TextEdit) -> int:
 @pytest.mark.parametrize(
     ("text", "ch", "expected"),
     [
-        ("repeat 2 {\n    WALK for 3s\n    }¦", "}", "repeat 2 {\n    WALK for 3s\n}\n"),
+        ("repeat 2 {\n    WALK for 3s\n    }¦", "}", "repeat 2 {\n    WALK for 3s\n}"),
+        ("IDLE\nWALK  \r\n¦", "\n", "IDLE\nWALK\n"),
+        ("WALK\n\n\n¦", "\n", "WALK\n\n\n"),
+        ("WALK\n\n\n¦\nIDLE", "\n", "WALK\n\n\n\nIDLE"),
+        ("repeat 2 {\n    \n    ¦\n}\n", "\n", "repeat 2 {\n    \n    \n}\n"),
         ("repeat 2 {\n    WALK for 3s\n    }¦\n", "}", "repeat 2 {\n    WALK for 3s\n}\n"),
         ("  repeat 2 {\n  WALK\n      IDLE\n    }¦\n", "}", "  repeat 2 {\n  WALK\n      IDLE\n}\n"),
         ("repeat 2 {\nrepeat 3 {\nWALK\n}¦\n}\n", "}", "repeat 2 {\nrepeat 3 {\nWALK\n    }\n}\n"),
@@ -125,6 +131,14 @@ def test_what_is_typed_has_its_line_formatted_and_no_other(known, text, ch, expe
     at = types.Position(line, len(before) - Source(before).line_starts[-1])
     typed = types.DocumentOnTypeFormattingParams(TEXT, at, ch, OPTIONS)
     assert applied(before + after, on_type_formatting(known(before + after), typed), "utf-16") == expected
+
+
+def test_what_is_typed_has_no_more_changed_than_has_to_be(known):
+    text = "repeat 2 {\r\n    WALK  \r\n    }\r\n"
+    for line, start, end in ((1, 8, 10), (2, 0, 4)):
+        typed = types.DocumentOnTypeFormattingParams(TEXT, types.Position(line, end), "}", OPTIONS)
+        place = types.Range(types.Position(line, start), types.Position(line, end))
+        assert on_type_formatting(known(text), typed) == [types.TextEdit(place, "")]
 
 
 def test_of_a_selection_its_lines_are_formatted_and_no_others(known):
