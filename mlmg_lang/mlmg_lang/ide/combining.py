@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator, Mapping, Sequence
 
 from mlmg_lang.diagnostics import Diagnostic
+from mlmg_lang.ide.outwards import outwards
 from mlmg_lang.parsing import syntax
 from mlmg_lang.parsing.tokens import Token
 from mlmg_lang.planning.finding.search import Search, is_fixed
@@ -58,25 +59,17 @@ def left_of_and(own: Sequence[Token]) -> Sequence[Token]:
     """Return what stands left of the `and` that tokens end with, without what that does not join; else nothing."""
     if not own or own[-1].type != "AND":
         return ()
-    depth = 0
-    for at in range(len(own) - 2, -1, -1):
-        depth += (own[at].type == "RIGHT") - (own[at].type == "LEFT")
-        if depth < 0 or (depth == 0 and own[at].type in _ENDS_AND):
-            return own[at + 1 : -1]
-    return own[:-1]
+    before = own[:-1]
+    ends = (at for at in outwards(before) if before[at].type == "LEFT" or before[at].type in _ENDS_AND)
+    return before[next(ends, -1) + 1 :]
 
 
 def is_inner(own: Sequence[Token]) -> bool:
     """Return whether what comes next stands in a set of motions that cannot be shared out: in an `or` or a `not`."""
-    depth = 0
-    for at in range(len(own) - 1, -1, -1):
+    for at in outwards(own):
         kind = own[at].type
-        if kind == "RIGHT":
-            depth += 1
-        elif kind == "LEFT" and depth:
-            depth -= 1
-        elif (kind == "OR" and not depth) or (kind == "LEFT" and at and own[at - 1].type == "NOT"):
+        if kind == "OR" or (kind == "LEFT" and at and own[at - 1].type == "NOT"):
             return True
-        elif kind in _ENDS_AND and not depth:
+        if kind in _ENDS_AND:
             return False
     return False

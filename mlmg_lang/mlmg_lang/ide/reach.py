@@ -15,6 +15,7 @@ from mlmg_lang.definitions.gather import Definitions
 from mlmg_lang.diagnostics import Diagnostic
 from mlmg_lang.ide.arguments import open_parentheses
 from mlmg_lang.ide.combining import is_inner, left_of_and, partners
+from mlmg_lang.ide.outwards import outwards
 from mlmg_lang.parsing import syntax
 from mlmg_lang.parsing.build_syntax import name_from_token
 from mlmg_lang.parsing.lexical import script_name
@@ -45,19 +46,14 @@ class Reach:
 
     def qualifier(self, own: Sequence[Token]) -> str | None:
         """Return the graph whose name stands before the cursor, or before the innermost group around it."""
-        depth = 0
-        for at in range(len(own) - 1, -1, -1):
+        for at in outwards(own):
             kind = own[at].type
-            if kind == "RIGHT":
-                depth += 1
-            elif kind == "LEFT" and depth:
-                depth -= 1
-            elif kind == "LEFT" or at == len(own) - 1:
+            if kind == "LEFT" or at == len(own) - 1:
                 named = at - 1 if kind == "LEFT" and at else at
                 graph = self._graph_of(own[named], own[:named])
                 if graph is not None:
                     return graph
-            elif kind == "WITH" and not depth:
+            elif kind == "WITH":
                 return None
         return None
 
@@ -185,18 +181,13 @@ def expression(before: Sequence[Token]) -> Sequence[Token]:
 
 def left_of_with(own: Sequence[Token]) -> Sequence[Token] | None:
     """Return what stands left of the `with` that tokens come after, in the same group; None if there is none."""
-    depth, with_at = 0, None
-    for at in range(len(own) - 1, -1, -1):
-        kind = own[at].type
-        if kind == "RIGHT":
-            depth += 1
-        elif kind in _ENDS_PART and depth == 0:
+    with_at = None
+    for at in outwards(own):
+        if own[at].type in _ENDS_PART:
             if with_at is not None:
                 return own[at + 1 : with_at]
             around = own[: next(iter(open_parentheses(own[: at + 1])), 0)]
             return left_of_with(around)
-        elif kind == "LEFT":
-            depth -= 1
-        elif kind == "WITH" and depth == 0 and with_at is None:
+        if own[at].type == "WITH" and with_at is None:
             with_at = at
     return None if with_at is None else own[:with_at]
