@@ -20,7 +20,7 @@ STAGES = ROW.findall((ROOT / "docs" / "architecture.md").read_text(encoding="utf
 
 def test_the_page_names_all_stages():
     assert [verb for verb, _, _ in STAGES] == [
-        "tokenize", "parse", "gather", "expand", "plan", "resolve", "Performer", "synthesize", "bvh_from_poses",
+        "tokenize", "parse", "gather", "Expander", "Planner", "resolve", "Performer", "synthesize", "bvh_from_poses",
     ]  # fmt: skip
 
 

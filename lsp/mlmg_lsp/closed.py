@@ -131,6 +131,8 @@ def _look(script: Found) -> _Look:
 
     try:
         data = Path(script.path).read_bytes()
+    except FileNotFoundError:  # it has gone meanwhile
+        return _Look(script.stamp, ())
     except OSError as error:
         return _Look(script.stamp, (), f"may use this too, and cannot be read: {error.strerror}")
     # Nearly all can be passed over by this alone.

@@ -149,8 +149,12 @@ class Workspace:
         return self._folder(self.place_of(document))
 
     def folders_around(self, *files: Path) -> tuple[Path, ...]:
-        """Return the folders of the workspace; for files that lie in none, those too in which they are."""
-        return tuple(dict.fromkeys((*self._roots.values(), *map(self._folder, files))))
+        """Return the folders of the workspace; for files that lie in none, those too in which they are.
+
+        All of a file system is nobody's folder of scripts.
+        """
+        own = (folder for folder in map(self._folder, files) if folder != folder.parent)
+        return tuple(dict.fromkeys((*self._roots.values(), *own)))
 
     def _folder(self, place: Path) -> Path:
         own = [root for root in self._roots.values() if place.is_relative_to(root)]

@@ -6,6 +6,16 @@ from urllib.parse import unquote, urlsplit
 
 import pytest
 
+from mlmg_lang.definitions.gather import NoFiles
+from mlmg_lang.front_end import analyse
+from mlmg_lang.source import Source
+from mlmg_lsp.client import Client
+from mlmg_lsp.closed import ClosedScripts, Users
+from mlmg_lsp.libraries import Shelf
+from mlmg_lsp.open_text import Snapshot
+from mlmg_lsp.scripts_below import scripts_below
+from mlmg_lsp.workspace import Settings, Workspace
+
 VERSIONED = {"workspace": {"workspaceEdit": {"documentChanges": True}}}
 GEST = "let greet(who, t = 2 sec) = who with Upper-Body WAVE for t\n"
 USER = 'use "../gest.ms"\n# 😀\ngreet(WALK, t = 3 sec)\n'
@@ -181,3 +191,22 @@ def test_scripts_are_looked_for_within_bounds(tmp_path):
         assert ([Path(one.path).name for one in some.scripts], some.is_all) == (["a.ms", "c.ms"], False)
     large = scripts_below([tmp_path], Bounds(n_scripts=3, n_bytes=4))
     assert (large.too_large, large.is_all) == (large.scripts, True)
+
+
+def test_a_script_that_is_gone_when_it_is_looked_into_uses_nothing(tmp_path):
+    script = tmp_path / "gone.ms"
+    script.write_text('use "gest.ms"\n', encoding="utf-8")
+    (found,) = scripts_below([tmp_path]).scripts
+    script.unlink()
+    gest = tmp_path / "gest.ms"
+    asked = Snapshot(gest.as_uri(), 1, analyse(Source(GEST, str(gest))), None, Client())
+    closed = ClosedScripts(lambda _: NoFiles())
+    assert closed._look(found).wrong == ""
+    assert closed.users(str(gest), [tmp_path], asked) == Users()
+
+
+def test_for_a_file_right_below_the_root_of_a_file_system_nothing_is_searched(tmp_path):
+    workspace = Workspace(Settings(), Shelf())
+    top = Path(tmp_path.anchor)
+    assert workspace.folders_around(top / "a.ms") == ()
+    assert workspace.folders_around(tmp_path / "a.ms") == (tmp_path,)
