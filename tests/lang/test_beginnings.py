@@ -111,7 +111,7 @@ def test_what_may_define_a_name_is_known_by_its_looks(line, defines):
 # --- what is told of it ---
 
 
-@pytest.mark.parametrize("seed", range(60))
+@pytest.mark.parametrize("seed", range(30))
 def test_mistakes_told_of_a_beginning_are_told_of_the_whole(reference, seed):
     draw = random.Random(seed)
     lines = lines_of(random_text(draw, (*SOUND, *SOUND, *WRONG)))
@@ -122,7 +122,7 @@ def test_mistakes_told_of_a_beginning_are_told_of_the_whole(reference, seed):
 
 def test_of_garbled_texts_hardly_anything_is_told_that_is_not_told_of_the_whole(reference):
     n_told = n_false = 0
-    for seed in range(150):
+    for seed in range(60):
         author = EDITS["Author"](seed, None, n_lines=(10, 60))
         for _ in range(40):
             author.edit()
@@ -132,7 +132,7 @@ def test_of_garbled_texts_hardly_anything_is_told_that_is_not_told_of_the_whole(
             told = errors(sure(analyse(Source("".join(lines[:end])), reference)))
             n_told += len(told)
             n_false += len(told - whole)
-    assert n_told > 500
+    assert n_told > 200
     assert n_false <= n_told / 200
 
 
@@ -160,7 +160,7 @@ def test_hints_wait_for_the_whole(reference):
 # --- from one to the next ---
 
 
-@pytest.mark.parametrize("seed", range(40))
+@pytest.mark.parametrize("seed", range(20))
 def test_from_beginning_to_beginning_with_edits_between_all_becomes_known_as_afresh(reference, seed):
     draw = random.Random(seed)
     author = EDITS["Author"](seed, None, n_lines=(10, 60))

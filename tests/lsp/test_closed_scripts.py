@@ -32,9 +32,23 @@ def folder(tmp_path):
     return root
 
 
+@pytest.fixture(scope="module")
+def shared(start_for_all):
+    """Return a client without a folder."""
+    client = start_for_all()
+    client.initialize(VERSIONED)
+    return client
+
+
 @pytest.fixture
-def client(start, folder):
-    return begun(start, folder)
+def client(shared, folder):
+    """Return a client in which the folder is the only one, and the file of definitions is open."""
+    gest, at = (folder / "gest.ms").as_uri(), {"uri": folder.as_uri(), "name": "root"}
+    shared.notify("workspace/didChangeWorkspaceFolders", {"event": {"added": [at], "removed": []}})
+    shared.open(gest, GEST, version=7)
+    yield shared
+    shared.close_text(gest)
+    shared.notify("workspace/didChangeWorkspaceFolders", {"event": {"added": [], "removed": [at]}})
 
 
 def begun(start, folder: Path, **params):
@@ -94,7 +108,8 @@ def test_those_are_found_that_use_it_by_way_of_others_and_as_they_are_now(client
     assert used_in(client, folder) == [("gest.ms", 0), ("more.ms", 1)]
 
 
-def test_what_an_open_script_between_them_says_is_taken_as_it_is_there(client, folder):
+def test_what_an_open_script_between_them_says_is_taken_as_it_is_there(start, folder):
+    client = begun(start, folder)
     client.open((folder / "more.ms").as_uri(), 'use "gest.ms"\n')
     client.diagnostics((folder / "more.ms").as_uri())
     (folder / "more.ms").write_text("", encoding="utf-8")

@@ -21,7 +21,7 @@ LINES = (
     "WLAK for 3 sec\n",
     "(WALK or\n    IDLE) for 1 sec\n",
 )
-LONG = "".join(LINES) * 600
+LONG = "".join(LINES) * 300
 
 
 def place(line: int) -> dict[str, Any]:
@@ -73,7 +73,7 @@ def test_what_is_asked_of_the_first_lines_is_answered_before_what_is_asked_of_al
     client.open(URI, LONG)
     order = [
         client.begin("textDocument/documentSymbol", HERE),
-        client.begin("textDocument/hover", place(2900)),
+        client.begin("textDocument/hover", place(1400)),
         client.begin("textDocument/hover", place(1)),
         client.begin("textDocument/completion", place(5)),
         client.begin("textDocument/semanticTokens/range", {**HERE, "range": FIRST_LINES}),
@@ -84,16 +84,16 @@ def test_what_is_asked_of_the_first_lines_is_answered_before_what_is_asked_of_al
 
 
 def test_what_changes_all_is_answered_of_all(client):
-    client.open(URI, "let B = WALK or TALK\n" + "B for 1 sec\n" * 2000)
+    client.open(URI, "let B = WALK or TALK\n" + "B for 1 sec\n" * 800)
     at = {"line": 0, "character": 4}
     context = {"diagnostics": [], "only": ["refactor.inline"]}
     actions = client.ask("textDocument/codeAction", {**HERE, "range": {"start": at, "end": at}, "context": context})
     edits = [one for action in actions for change in action["edit"]["changes"].values() for one in change]
-    assert len(edits) > 2000
+    assert len(edits) > 800
 
 
 def test_after_an_edit_that_moves_all_lines_nothing_is_told_that_is_taken_back(client):
-    client.open(URI, "(WALK or\n    TALK or\n    IDLE or\n    Idle_01) for 1 sec\n" * 600)
+    client.open(URI, "(WALK or\n    TALK or\n    IDLE or\n    Idle_01) for 1 sec\n" * 300)
     assert client.diagnostics(URI, 1) == []
     start = {"line": 0, "character": 0}
     client.edit(URI, 2, {"range": {"start": start, "end": start}, "text": "\n"})
@@ -112,7 +112,7 @@ def test_after_edits_while_it_is_read_all_is_known_as_if_there_had_been_none(cli
     lines = LONG.splitlines(keepends=True)
     client.open(URI, LONG)
     client.diagnostics(URI, 1)
-    for version, (line, new) in enumerate([(0, "WALK for\n"), (2000, "WLAK\n"), (3, ""), (10, "IDLE\n" * 400)], 2):
+    for version, (line, new) in enumerate([(0, "WALK for\n"), (1200, "WLAK\n"), (3, ""), (10, "IDLE\n" * 400)], 2):
         ends = ({"line": line, "character": 0}, {"line": line + 1, "character": 0})
         client.edit(URI, version, {"range": dict(zip(("start", "end"), ends, strict=True)), "text": new})
         lines[line : line + 1] = new.splitlines(keepends=True)

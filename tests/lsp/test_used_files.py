@@ -104,7 +104,7 @@ def test_what_is_asked_of_all_scripts_waits_for_those_that_are_read(start, tmp_p
     client, user = begun(start, PUSHED), (tmp_path / "user.ms").as_uri()
     client.open(used.as_uri(), RIGHT)
     client.diagnostics(used.as_uri())
-    client.open(user, 'use "moves/used.ms"\n' + "stroll\n" * 1500)
+    client.open(user, 'use "moves/used.ms"\n' + "stroll\n" * 600)
     asked = {"textDocument": {"uri": used.as_uri()}, "position": {"line": 0, "character": 5}, "newName": "amble"}
     asked["context"] = {"includeDeclaration": True}
 
@@ -112,10 +112,10 @@ def test_what_is_asked_of_all_scripts_waits_for_those_that_are_read(start, tmp_p
         found = client.ask(f"textDocument/{method}", asked)
         return len(found) if method == "references" else sum(map(len, found["changes"].values()))
 
-    assert n_found() == 1501
+    assert n_found() == 601
     start_of_text = {"line": 0, "character": 0}
     client.edit(used.as_uri(), 2, {"range": {"start": start_of_text, "end": start_of_text}, "text": " "})
-    assert n_found() == 1501
+    assert n_found() == 601
 
 
 def test_a_used_file_that_is_opened_with_another_text_counts_as_it_stands_there(start, tmp_path, used):

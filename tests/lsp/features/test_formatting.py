@@ -50,7 +50,7 @@ def test_after_any_edits_it_is_that_of_the_whole(snapshots, encoding):
 
 def test_of_some_lines_it_is_what_of_all_of_it_lies_there(snapshots):
     draw = random.Random(1)
-    for snapshot in snapshots("utf-16", 40):
+    for snapshot in snapshots("utf-16", 8):
         text, all_edits = snapshot.analysis.source.text, formatting(snapshot, ALL)
         n_lines = len(snapshot.analysis.source.line_starts)
         for begin in range(n_lines):
@@ -79,7 +79,7 @@ def test_of_some_lines_no_others_change(snapshots):
 
 
 def test_one_selection_after_the_other_comes_to_the_whole_where_no_change_lies_in_both(snapshots, known):
-    for snapshot in snapshots("utf-16", 30):
+    for snapshot in snapshots("utf-16", 8):
         text = snapshot.analysis.source.text
         ends = sorted({last_of(edit) for edit in formatting(snapshot, ALL)}, reverse=True)
         wanted = canonical(text)
