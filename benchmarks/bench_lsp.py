@@ -42,7 +42,10 @@ CLIENT: Final[Mapping[str, Any]] = {
         "completion": {"completionItem": {"snippetSupport": True}},
         "publishDiagnostics": {"relatedInformation": True, "tagSupport": {"valueSet": [1, 2]}},
     },
-    "workspace": {"workspaceEdit": {"documentChanges": True}, "inlayHint": {"refreshSupport": True}},
+    "workspace": {
+        "workspaceEdit": {"documentChanges": True},
+        **{name: {"refreshSupport": True} for name in ("inlayHint", "semanticTokens", "codeLens")},
+    },
 }
 Times = tuple[float, float]
 """How long a client waits, and how long the server computes meanwhile; 0 where that cannot be told."""
@@ -243,7 +246,10 @@ ASKED: Final = (
     Asking("formatting as one types", "onTypeFormatting", lambda at: {"position": at, "ch": "\n", **FORMAT}),
     Asking("pulled diagnostics", "diagnostic", nothing),
 )
-OPENING: Final = ("opening, up to the first diagnostics", "hover while it is read", "an edit while it is read")
+OPENING: Final = (
+    "opening, up to the first diagnostics",
+    *(f"{what} while it is read" for what in ("hover", "semantic tokens", "lenses", "an edit")),
+)
 ALL_READ: Final = "opening, up to the outline"
 OF_MISTAKES: Final = (*OPENING, ALL_READ, "diagnostics after an edit", "hover", "pulled diagnostics")
 """What is asked of a script with mistakes."""
@@ -286,6 +292,8 @@ def opening(client: Client, text: str, first: Sequence[int]) -> Iterator[Timed]:
     works = (
         lambda: client.open(text),
         lambda: client.ask("textDocument/hover", place),
+        lambda: client.ask("textDocument/semanticTokens/full", document),
+        lambda: client.ask("textDocument/codeLens", document),
         lambda: change(client, random.Random(3), first),
         lambda: client.ask("textDocument/documentSymbol", document),
     )

@@ -11,7 +11,16 @@ from lsprotocol import types
 from pygls.exceptions import JsonRpcContentModified
 from pygls.lsp.server import LanguageServer
 
-from mlmg_lsp.features import FEATURES, INLAY_HINT, OF_A_PLACE, OF_ALL_TEXTS, RESOLVING, WORKSPACE_SYMBOL, answer_named
+from mlmg_lsp.features import (
+    ASKED_AGAIN,
+    FEATURES,
+    INLAY_HINT,
+    OF_A_PLACE,
+    OF_ALL_TEXTS,
+    RESOLVING,
+    WORKSPACE_SYMBOL,
+    answer_named,
+)
 from mlmg_lsp.session import ClientSession
 from mlmg_lsp.work import off_loop
 
@@ -44,7 +53,8 @@ def _of_text(session: ClientSession, name: str) -> Callable[[Any], Any]:
     """Return what answers a request about a text, off the thread that reads messages."""
 
     async def handler(params: Any) -> Any:
-        line = _last_line(params) if name in OF_A_PLACE else None
+        is_early = ASKED_AGAIN.get(name) in session.documents.client.refreshed
+        line = _last_line(params) if is_early or name in OF_A_PLACE else None
         snapshot = await session.snapshot(params.text_document.uri, line)
         return await off_loop(lambda: answer_named(name)(snapshot, params))
 

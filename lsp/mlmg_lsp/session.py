@@ -17,7 +17,7 @@ from mlmg_lsp.client import client_from
 from mlmg_lsp.closed import ClosedScripts, Users
 from mlmg_lsp.documents import Documents
 from mlmg_lsp.executing import Executor
-from mlmg_lsp.features import HINTS_AHEAD, HOME, answer_named, get_ahead, warm
+from mlmg_lsp.features import ASKED_AGAIN, HINTS_AHEAD, HOME, answer_named, get_ahead, warm
 from mlmg_lsp.finding import LibraryFinder
 from mlmg_lsp.foresight import Foresight
 from mlmg_lsp.libraries import Shelf, Shelved
@@ -185,9 +185,8 @@ class ClientSession:
             self._asker.refresh()
 
     def _is_whole(self) -> None:
-        """Let those ask again who have been told what is wrong with a beginning."""
-        if self.documents.client.pulls:
-            self._asker.refresh("diagnostics")
+        """Let the client ask again for what has been answered by a beginning."""
+        self._asker.refresh(*ASKED_AGAIN.values())
 
     def _take_library(self, document: Document, shelved: Shelved | None) -> None:
         """Look again at a text that has another library than before."""

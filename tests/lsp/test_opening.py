@@ -12,8 +12,10 @@ HERE = {"textDocument": {"uri": URI}}
 PUSHED = {"textDocument": {"publishDiagnostics": {}}}
 PULLED = {
     "textDocument": {"diagnostic": {"dynamicRegistration": False}},
-    "workspace": {"diagnostics": {"refreshSupport": True}},
+    "workspace": {name: {"refreshSupport": True} for name in ("diagnostics", "semanticTokens", "codeLens")},
 }
+EARLY = ("diagnostic", "semanticTokens/full", "codeLens")
+"""What a client is answered by a beginning that can be told to ask again."""
 FIRST_LINES = {"start": {"line": 0, "character": 0}, "end": {"line": 5, "character": 0}}
 LINES = (
     "WALK with Upper-Body TALK for 3 sec\n",
@@ -148,19 +150,42 @@ def test_after_an_edit_what_has_been_read_is_not_read_again_before_there_are_ans
     assert len(first) < 200
 
 
-def test_a_client_that_asks_is_answered_early_and_told_to_ask_again(start):
+def early(client) -> tuple[list[Any], list[Any]]:
+    """Return what is answered of a long text at once, in their order, and whatever else was answered before."""
+    client.open(URI, LONG)
+    whole = client.begin("textDocument/documentSymbol", HERE)
+    asked = [client.begin(f"textDocument/{name}", HERE) for name in EARLY]
+    answered = [client.wait(lambda one: one.get("id") in (whole, *asked) and "method" not in one) for _ in range(4)]
+    found = {one["id"]: one["result"] for one in answered}
+    return [found[number] for number in asked], [one["id"] for one in answered[: [*found].index(whole)]]
+
+
+def test_a_client_that_can_be_told_to_ask_again_is_answered_early(start):
     client = start()
     client.initialize(PULLED)
     client.open("untitled:first", "WALK\n")
     client.ask("textDocument/diagnostic", {"textDocument": {"uri": "untitled:first"}})
-    client.open(URI, LONG)
-    first = client.ask("textDocument/diagnostic", HERE)
-    assert 0 < len(first["items"]) < 100
-    assert "resultId" not in first
-    client.ask("textDocument/documentSymbol", HERE)
-    client.wait_for("workspace/diagnostic/refresh")
-    again = client.ask("textDocument/diagnostic", HERE)
-    assert what(first["items"]) == what(again["items"])[: len(first["items"])]
+    (told, tokens, lenses), before = early(client)
+    assert len(before) == len(EARLY)
+    assert 0 < len(told["items"]) < 100
+    assert "resultId" not in told
+    for name in ("diagnostic", "semanticTokens", "codeLens"):
+        client.wait_for(f"workspace/{name}/refresh")
+    again, delta, more = (
+        client.ask("textDocument/diagnostic", HERE),
+        client.ask("textDocument/semanticTokens/full/delta", {**HERE, "previousResultId": tokens["resultId"]}),
+        client.ask("textDocument/codeLens", HERE),
+    )
+    assert what(told["items"]) == what(again["items"])[: len(told["items"])]
     assert len(again["items"]) > 200
     assert again["resultId"]
+    assert len(delta["data"]) > 10 * len(tokens["data"])
+    assert tokens["data"] == delta["data"][: len(tokens["data"])]
+    assert len(more) > 5 * len(lenses) > 100
     assert client.leave() == 0
+
+
+def test_a_client_that_cannot_be_told_to_ask_again_is_answered_of_all(client):
+    (_, tokens, lenses), _ = early(client)
+    assert tokens["data"] == client.ask("textDocument/semanticTokens/full", HERE)["data"]
+    assert lenses == client.ask("textDocument/codeLens", HERE)

@@ -81,11 +81,20 @@ FEATURES: Final[tuple[tuple[str, Any, str], ...]] = (
 )
 """By method: what the client is told of it, and what answers a request about a text."""
 
-OF_A_PLACE: Final = frozenset({
-    *("diagnostic.diagnostic", "completion.completion", "navigation.hover", "navigation.definition"),
-    *("navigation.signature_help", "semantic_tokens.within"),
-})  # fmt: skip
-"""What is answered by what stands before and at a place; of diagnostics, as many as there are."""
+OF_A_PLACE: Final = frozenset(
+    {
+        *("completion.completion", "navigation.hover", "navigation.definition", "navigation.signature_help"),
+        "semantic_tokens.within",
+    }
+)
+"""What is answered by what stands before and at a place."""
+ASKED_AGAIN: Final[Mapping[str, str]] = {
+    "diagnostic.diagnostic": "diagnostics",
+    "semantic_tokens.full": "semantic_tokens",
+    "semantic_tokens.delta": "semantic_tokens",
+    "code_lens.code_lens": "code_lens",
+}
+"""What is answered by a beginning at first, and what a client can then be told to ask again for, by its capability."""
 OF_ALL_TEXTS: Final = frozenset({"navigation.references_of", "navigation.rename_to"})
 """What is answered by all texts that are open."""
 HOME: Final = "navigation.home_of"
