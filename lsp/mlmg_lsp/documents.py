@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import asyncio
 import os
-from collections.abc import Awaitable, Callable, Iterator, Sequence
+from collections.abc import Awaitable, Callable, Iterator
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 from itertools import count
 from pathlib import Path
@@ -16,17 +16,16 @@ from lsprotocol import types
 
 from mlmg_lang.source import Source
 from mlmg_lsp.client import Client
-from mlmg_lsp.memory import clear_out, settle, undisturbed, unsettle
+from mlmg_lsp.memory import settle, undisturbed, unsettle
 from mlmg_lsp.open_text import Beginning, Document, Snapshot, Superseded, path_of
 from mlmg_lsp.positions import EditorPosition
+from mlmg_lsp.reading import Reader
 from mlmg_lsp.texts import edited, lines_of
 from mlmg_lsp.work import off_loop
 
 if TYPE_CHECKING:
     from mlmg_lang.definitions.gather import Files
-    from mlmg_lang.diagnostics import Diagnostic
     from mlmg_lang.front_end import Analysis
-    from mlmg_lang.script_files import UsedFiles
     from mlmg_lsp.libraries import Shelved
 
 GRACE_S = 1.0
@@ -54,7 +53,7 @@ class Documents:
         is_whole : is called when all of a text is known of which a beginning was told before.
         """
         self.client = Client()
-        self._files = files
+        self._reader = Reader(files, self.text_of, self._tell_beginning)
         self._told = told
         self._get_ready = get_ready
         self._get_ahead = get_ahead
@@ -199,7 +198,7 @@ class Documents:
                 await document.found.wait()
         document.begun = True
         try:
-            analysis = await self._read_with_files(document)
+            analysis = await self._reader.read(document)
         except Exception as error:
             ready.set_exception(error)
             raise
@@ -214,43 +213,6 @@ class Documents:
             self._is_whole()
         await off_loop(lambda: analysis.ready)
 
-    async def _read_with_files(self, document: Document) -> Analysis:
-        """Return the analysis of a text, in which no file is other than it is open."""
-        before, analysis = document.analysis, await self._read(document)
-        # Where a file changes, who has used it is read again; but not who is reading it for the first time.
-        if before is None or before.source.used != analysis.source.used:
-            while self._is_outdated(analysis):
-                document.stale = True
-                analysis = await self._read(document)
-        return analysis
-
-    async def _read(self, document: Document) -> Analysis:
-        """Return the analysis of a text; of a long one that is new, after ever longer beginnings of it."""
-        from mlmg_lang.beginnings import beginnings
-
-        lines, n_read = document.lines, document.n_read
-        if document.stale or document.analysis is None:
-            n_read = 0
-        ends = [(len(lines), True)] if n_read is None else await off_loop(lambda: list(beginnings(lines, n_read)))
-        for n_lines, is_sure in ends[:-1]:
-            analysis = await off_loop(self._work(document, n_lines))
-            self._take(document, analysis, n_lines)
-            if is_sure and not document.revision:
-                await self._tell_beginning(document, analysis, n_lines)
-        analysis = await off_loop(self._work(document, len(lines)))
-        self._take(document, analysis, None)
-        return analysis
-
-    def _take(self, document: Document, analysis: Analysis, n_read: int | None) -> None:
-        """Keep an analysis in the place of the one before; `n_read`: see `Document`."""
-        if document.analysis is not None and document.analysis.question.catalog is not analysis.question.catalog:
-            document.analysis = None
-            clear_out()
-        is_grown = n_read is not None or document.n_read is not None
-        document.analysis, document.stale, document.n_read = analysis, False, n_read
-        if is_grown or analysis.made.serial == 0:  # made afresh, so that nearly all of it will stay
-            settle()
-
     async def _tell_beginning(self, document: Document, analysis: Analysis, n_lines: int) -> None:
         """Let there be answers of the first lines of a text, and tell what is wrong with them."""
         from mlmg_lang.beginnings import sure
@@ -263,19 +225,6 @@ class Documents:
         """Find out what takes long the first time; later edits leave nearly all of it as it is."""
         await off_loop(undisturbed()(partial(self._get_ahead, snapshot)))
         settle()
-
-    def _work(self, document: Document, n_lines: int) -> Callable[[], Analysis]:
-        """Return what is to be done of some lines, with all that it needs: what it would ask may change meanwhile."""
-        from mlmg_lang.front_end import Question, analyse_again, analyse_for
-
-        source = Source("".join(document.lines[:n_lines]), document.name)
-        shelved, before = document.shelved, document.analysis
-        catalog, names = (None, None) if shelved is None else (shelved.library, shelved.names)
-        if document.stale or before is None or before.question.catalog is not catalog:
-            question = Question(catalog, names, None, self._files(document, self.text_of))
-            return undisturbed()(partial(analyse_for, source, question))
-        again = partial(analyse_again, before, source)
-        return again if document.n_read is None else undisturbed()(again)
 
     def users(self, path: Path) -> list[Document]:
         """Return the open texts that use a file."""
@@ -294,10 +243,6 @@ class Documents:
                 if os.path.realpath(file.name) == real:
                     yield document, file
 
-    def _is_outdated(self, analysis: Analysis) -> bool:
-        """Return whether a text has read another text of a file than the one that is open."""
-        return any(self.text_of(file.name) not in (None, file.text) for file in analysis.source.used)
-
     def text_of(self, path: str) -> str | None:
         """Return the text of a file that is open, as it stands in the client."""
         real = os.path.realpath(path)
@@ -310,23 +255,3 @@ class Documents:
 def _against(analysis: Analysis, shelved: Shelved | None) -> Shelved | None:
     """Return the library of a text if it is the one that an analysis is against."""
     return shelved if shelved is not None and shelved.library is analysis.question.catalog else None
-
-
-@dataclass(frozen=True, slots=True)
-class OpenFiles:
-    """Finds the files that a text uses, as they stand in the client where they are open there."""
-
-    files: UsedFiles
-    text_of: Callable[[str], str | None]
-
-    def find(self, path: str, user: str) -> tuple[Source, tuple[Diagnostic, ...]] | str:
-        """Return a file and what is wrong with its bytes; or, in words, why it cannot be used."""
-        found = self.files.find(path, user)
-        if isinstance(found, str):
-            return found
-        text = self.text_of(found[0].name)
-        return found if text is None else (Source(text, found[0].name), ())
-
-    def paths(self, begun: str, user: str) -> Sequence[str]:
-        """Return the paths that the beginning of one could become."""
-        return self.files.paths(begun, user)

@@ -8,10 +8,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 from mlmg_lang.libraries import DEMO, Progress, find_library
-from mlmg_lsp.documents import OpenFiles
 from mlmg_lsp.libraries import Shelf, Shelved
 from mlmg_lsp.open_text import Document, path_of
 from mlmg_lsp.positions import Encoding
+from mlmg_lsp.reading import OpenFiles
 from mlmg_lsp.work import off_loop
 
 if TYPE_CHECKING:

@@ -12,8 +12,9 @@ from mlmg_lang.definitions.gather import Files
 from mlmg_lang.diagnostics import Diagnostic
 from mlmg_lang.script_files import used_files
 from mlmg_lang.source import Source
-from mlmg_lsp.documents import Documents, OpenFiles
+from mlmg_lsp.documents import Documents
 from mlmg_lsp.open_text import Document, Snapshot
+from mlmg_lsp.reading import OpenFiles
 
 PUSHED = {"textDocument": {"publishDiagnostics": {"relatedInformation": True}}}
 PULLING = {

@@ -82,10 +82,10 @@ FEATURES: Final[tuple[tuple[str, Any, str], ...]] = (
 """By method: what the client is told of it, and what answers a request about a text."""
 
 OF_A_PLACE: Final = frozenset(
-    {
+    (
         *("completion.completion", "navigation.hover", "navigation.definition", "navigation.signature_help"),
         "semantic_tokens.within",
-    }
+    )
 )
 """What is answered by what stands before and at a place."""
 ASKED_AGAIN: Final[Mapping[str, str]] = {
