@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import Final, TypeAlias
 
 from mlmg_lang.source import Span
@@ -267,20 +267,26 @@ class Script(Node):
     span: Span
 
 
-_LEAVES: Final = frozenset({Name, Quantity, Weight, RepeatHead, ChooseHead, Broken, BrokenDefinition})
-"""What no other node is part of."""
+_HOLDING: Final = (
+    *(Reference, Argument, Call, Qualified, Group, Not, And, Or, With),
+    *(Command, Wait, End, Parameter, Let, Use, Repeat, Branch, Choose, Script),
+)
+"""The kinds of node that are made of other nodes."""
+_PLAIN: Final = ("Span", "Span | None", "bool")
+_PARTS: Final = {kind: tuple(one.name for one in fields(kind) if one.type not in _PLAIN) for kind in _HOLDING}
+"""By kind of node, the fields that hold nodes, or tuples of nodes, in the order of the text."""
 
 
-def children(node: Node) -> Iterator[Node]:
-    """Yield the nodes that a node is made of, in the order of the text."""
-    if type(node) in _LEAVES:
-        return
-    fields: tuple[str, ...] = node.__slots__
-    for field in fields:
-        value = getattr(node, field)
-        for part in value if isinstance(value, tuple) else (value,):
-            if isinstance(part, Node):
-                yield part
+def children(node: Node) -> list[Node]:
+    """Return the nodes that a node is made of, in the order of the text."""
+    found: list[Node] = []
+    for field in _PARTS.get(type(node), ()):
+        part = getattr(node, field)
+        if type(part) is tuple:
+            found += part
+        elif part is not None:
+            found.append(part)
+    return found
 
 
 def walk(node: Node) -> Iterator[Node]:
@@ -289,5 +295,5 @@ def walk(node: Node) -> Iterator[Node]:
     while waiting:
         node = waiting.pop()
         yield node
-        if type(node) not in _LEAVES:
-            waiting.extend(reversed(tuple(children(node))))
+        if type(node) in _PARTS:
+            waiting += reversed(children(node))
