@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields
 from typing import Final, TypeAlias
 
@@ -273,7 +273,9 @@ _HOLDING: Final = (
 )
 """The kinds of node that are made of other nodes."""
 _PLAIN: Final = ("Span", "Span | None", "bool")
-_PARTS: Final = {kind: tuple(one.name for one in fields(kind) if one.type not in _PLAIN) for kind in _HOLDING}
+_PARTS: Final[Mapping[type[Node], Sequence[str]]] = {
+    kind: tuple(one.name for one in fields(kind) if one.type not in _PLAIN) for kind in _HOLDING
+}
 """By kind of node, the fields that hold nodes, or tuples of nodes, in the order of the text."""
 
 
