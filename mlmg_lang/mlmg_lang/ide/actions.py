@@ -15,7 +15,7 @@ from mlmg_lang.analysis import Analysis
 from mlmg_lang.diagnostics import Diagnostic, Severity
 from mlmg_lang.ide.extracting import extraction
 from mlmg_lang.ide.inlining import inlinings
-from mlmg_lang.ide.rewriting import Edit, commands
+from mlmg_lang.ide.rewriting import Edit
 from mlmg_lang.ide.touching import pieces_touching
 from mlmg_lang.parsing import syntax
 from mlmg_lang.parsing.lexical import script_name
@@ -127,7 +127,7 @@ def _qualifications(analysis: Analysis, within: Span) -> Iterator[Action]:
         return
     for piece, further in pieces_touching(analysis, Span(within.start, within.start)):  # a name is in one
         planned = list(_planned(piece.statements))
-        for command in commands(piece.items):
+        for command in syntax.commands(piece.items):
             typed_command = next((one for one in planned if one.span == command.span), None)
             named = {} if typed_command is None else _named(typed_command)
             for name in _unqualified(command.motion):

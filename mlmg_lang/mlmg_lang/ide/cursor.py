@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 from bisect import bisect_left
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Final
 
 from mlmg_lang.parsing.layout import Block, Line, lay_out
-from mlmg_lang.parsing.tokens import Token
+from mlmg_lang.parsing.tokens import ENDS_PARENTHESES, Token, n_open_braces
 from mlmg_lang.source import Span
 
 _WORDS: Final = frozenset({"NAME", "UNIT", "STRING", "UNCLOSED"})
-_CLEARS: Final = frozenset({"SEMICOLON", "OPEN", "CLOSE", "BAR"})
 _BEFORE_NUMBER: Final = frozenset({"FOR", "WAIT", "REPEAT"})
 """What a number stands behind, and no motion."""
 _BEFORE_VALUE: Final = frozenset({"LEFT", "COMMA", "EQUALS"})
@@ -85,14 +84,16 @@ def in_a_row(tokens: Sequence[Token], cursor: Cursor) -> Iterator[Cursor]:
 
 def is_open(tokens: Sequence[Token]) -> bool:
     """Return whether a text ends inside braces or parentheses that something may still close."""
-    depth = n_open = 0
+    return n_open_braces(tokens) > 0 or _n_open_parentheses(tokens) > 0
+
+
+def _n_open_parentheses(tokens: Iterable[Token]) -> int:
+    """Return how many parentheses are open behind some tokens: none is open beyond a brace, a `|` or a `;`."""
+    n_open = 0
     for token in tokens:
-        if token.type in _CLEARS:
-            n_open = 0
-            depth = max(0, depth + (token.type == "OPEN") - (token.type == "CLOSE"))
-        elif token.type in ("LEFT", "RIGHT"):
-            n_open = max(0, n_open + (1 if token.type == "LEFT" else -1))
-    return depth > 0 or n_open > 0
+        cleared = token.type in ENDS_PARENTHESES
+        n_open = 0 if cleared else max(0, n_open + (token.type == "LEFT") - (token.type == "RIGHT"))
+    return n_open
 
 
 def _is_word(token: Token) -> bool:
@@ -125,7 +126,7 @@ def _ends_in_hyphen(tokens: Sequence[Token]) -> bool:
 def _statement(before: Sequence[Token], offset: int) -> tuple[tuple[Token, ...], tuple[Token, ...], bool]:
     """Return the tokens of the statement that a word at an offset belongs to, and those of the one before it."""
     here = Token("NAME", "", Span(offset, offset))
-    closing = [Token("RIGHT", ")", Span(offset, offset))] * _n_open(before)
+    closing = [Token("RIGHT", ")", Span(offset, offset))] * _n_open_parentheses(before)
     items, nested = lay_out([*before, here, *closing]).items, False
     while items and isinstance(items[-1], Block):
         items, nested = items[-1].branches[-1], True
@@ -135,16 +136,6 @@ def _statement(before: Sequence[Token], offset: int) -> tuple[tuple[Token, ...],
     line = lines[-1][: lines[-1].index(here)]
     joined = not line and len(lines) > 1 and _last_solid(before) not in ("SEMICOLON", "CLOSE")
     return line, lines[-2] if joined else (), nested
-
-
-def _n_open(tokens: Sequence[Token]) -> int:
-    n_open = 0
-    for token in tokens:
-        if token.type in _CLEARS:
-            n_open = 0
-        elif token.type in ("LEFT", "RIGHT"):
-            n_open = max(0, n_open + (1 if token.type == "LEFT" else -1))
-    return n_open
 
 
 def _last_solid(tokens: Sequence[Token]) -> str:

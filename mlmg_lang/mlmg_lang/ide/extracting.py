@@ -9,7 +9,7 @@ from itertools import count, takewhile
 from typing import Final
 
 from mlmg_lang.analysis import Analysis
-from mlmg_lang.ide.rewriting import Edit, commands, lasting
+from mlmg_lang.ide.rewriting import Edit, lasting
 from mlmg_lang.ide.touching import pieces_touching
 from mlmg_lang.parsing import syntax
 from mlmg_lang.parsing.structure import group_of, is_sub
@@ -41,7 +41,7 @@ def extraction(analysis: Analysis, within: Span) -> Extraction | None:
     if selected.start == selected.end:
         return None
     for piece, further in pieces_touching(analysis, Span(selected.start, selected.start)):  # a part is in one
-        for command in commands(piece.items):
+        for command in syntax.commands(piece.items):
             for span, part in _parts(command, analysis):
                 if _without_spaces(analysis, Span(span.start + further, span.end + further)) == selected:
                     first = next(token.span.start for token in piece.tokens if token.type not in ("COMMENT", "NEWLINE"))

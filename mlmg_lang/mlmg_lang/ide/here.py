@@ -12,7 +12,7 @@ from mlmg_lang.analysis import Analysis, InPieces, Question
 from mlmg_lang.chunks import Chunks
 from mlmg_lang.ide.cursor import cursor_at
 from mlmg_lang.moving import by, moved
-from mlmg_lang.parsing.tokens import Token
+from mlmg_lang.parsing.tokens import Token, n_open_braces
 from mlmg_lang.pieces import Piece
 from mlmg_lang.planning import flow
 from mlmg_lang.planning.names import Names
@@ -120,8 +120,4 @@ def statement_start(tokens: tuple[Token, ...], offset: int) -> int:
 
 def _closing(tokens: tuple[Token, ...], offset: int) -> str:
     """Return the braces that close the blocks around an offset; `tokens`: those around it."""
-    depth = 0
-    for token in tokens:
-        if token.span.start < offset:
-            depth = max(0, depth + (token.type == "OPEN") - (token.type == "CLOSE"))
-    return "\n}" * depth
+    return "\n}" * n_open_braces(token for token in tokens if token.span.start < offset)

@@ -11,7 +11,6 @@ from mlmg_lang.analysis import Analysis
 from mlmg_lang.blocks import Statement
 from mlmg_lang.catalog import Catalog
 from mlmg_lang.definitions.gather import Definitions
-from mlmg_lang.ide.rewriting import commands
 from mlmg_lang.ide.touching import pieces_touching
 from mlmg_lang.parsing import syntax
 from mlmg_lang.parsing.amounts import UNITS, seconds_from_quantity, spelled, unit_of
@@ -109,7 +108,7 @@ def goings(piece: Statement, start: int, outlook: Outlook | None) -> tuple[Going
     if outlook is None:
         return ()
     further = start - piece.address
-    spans = (one.span for one in commands(piece.items))
+    spans = (one.span for one in syntax.commands(piece.items))
     found = tuple([outlook.going(Span(span.start + further, span.end + further)) for span in spans])
     return () if all(one is None for one in found) else found
 
@@ -130,7 +129,9 @@ def piece_hints(
     """
     hinter = _Hinter(text, meanings, -piece.address)
     told = (
-        hint for command, one in zip(commands(piece.items), going, strict=False) for hint in hinter.of(command, one)
+        hint
+        for command, one in zip(syntax.commands(piece.items), going, strict=False)
+        for hint in hinter.of(command, one)
     )
     written = (hint for item in piece.items for hint in hinter.written(item))
     found = (hint for hint in (*told, *written) if hint.kind in kinds)

@@ -72,7 +72,7 @@ def _candidates(piece: Statement, titles: Mapping[Span, str]) -> Iterator[Lens]:
     start = 0
     for line in piece.lines if isinstance(piece, WholeBlock) else (piece,):
         further = start - line.address
-        for command in () if has_errors(line.told) else _written(line.items):
+        for command in () if has_errors(line.told) else syntax.commands(line.items):
             if command.span in titles:
                 span = Span(command.span.start + further, command.span.end + further)
                 yield Lens(span, titles[command.span], Deed.CANDIDATES, span)
@@ -93,18 +93,6 @@ def _commands(statements: Iterable[resolved.Statement]) -> Iterator[resolved.Com
                 yield from _commands(body)
             case resolved.Choose(branches):
                 yield from (command for branch in branches for command in _commands(branch.body))
-
-
-def _written(items: Iterable[syntax.Item]) -> Iterator[syntax.Command]:
-    """Yield the commands of items, those of definitions left out."""
-    for item in items:
-        match item:
-            case syntax.Command():
-                yield item
-            case syntax.Repeat(body=body):
-                yield from _written(body)
-            case syntax.Choose(branches=branches):
-                yield from (command for branch in branches for command in _written(branch.body))
 
 
 def _title(command: resolved.Command) -> str:

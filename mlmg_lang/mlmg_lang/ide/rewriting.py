@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 from mlmg_lang.analysis import Analysis
@@ -17,18 +16,6 @@ class Edit:
 
     span: Span
     replacement: str
-
-
-def commands(items: Iterable[syntax.Item]) -> Iterator[syntax.Command]:
-    """Yield the commands of items, in the order of the text, those of definitions left out."""
-    for item in items:
-        match item:
-            case syntax.Command():
-                yield item
-            case syntax.Repeat(body=body):
-                yield from commands(body)
-            case syntax.Choose(branches=branches):
-                yield from (command for branch in branches for command in commands(branch.body))
 
 
 def lasting(node: syntax.Node, analysis: Analysis) -> bool:

@@ -13,7 +13,7 @@ from typing import Final
 
 from mlmg_lang.diagnostics import Diagnostic, Fix
 from mlmg_lang.parsing.foreign import defines, opens_block, other_word
-from mlmg_lang.parsing.tokens import CONTINUES, JOINERS, NAMES, NUMBERS, OPENS_STATEMENT, Token
+from mlmg_lang.parsing.tokens import CONTINUES, JOINERS, NAMES, NUMBERS, OPENS_STATEMENT, Token, n_open_braces
 from mlmg_lang.source import Span
 
 _SIGNS: Final = frozenset({"SEMICOLON", "BAR", "OPEN", "CLOSE"})
@@ -160,10 +160,7 @@ def _stray_closing(tokens: Sequence[Token], at: int, before: str, after: str, de
 
 def _n_open_before(tokens: Sequence[Token], at: int) -> int:
     """Return how many braces are open before a sign that are opened in its line."""
-    depth = 0
-    for token in _whole_line_before(tokens, at):
-        depth = max(0, depth + (token.type == "OPEN") - (token.type == "CLOSE"))
-    return depth
+    return n_open_braces(_whole_line_before(tokens, at))
 
 
 def _n_closing_behind(tokens: Sequence[Token], at: int) -> int:

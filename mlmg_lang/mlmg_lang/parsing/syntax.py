@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields
 from typing import Final, TypeAlias
 
@@ -299,3 +299,15 @@ def walk(node: Node) -> Iterator[Node]:
         yield node
         if type(node) in _PARTS:
             waiting += reversed(children(node))
+
+
+def commands(items: Iterable[Item]) -> Iterator[Command]:
+    """Yield the commands of items, those in blocks too, in the order of the text; those of definitions are left out."""
+    for item in items:
+        match item:
+            case Command():
+                yield item
+            case Repeat(body=body):
+                yield from commands(body)
+            case Choose(branches=branches):
+                yield from (command for branch in branches for command in commands(branch.body))

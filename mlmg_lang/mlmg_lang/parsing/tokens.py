@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Final
 
@@ -39,3 +40,11 @@ class Token:
     def end_pos(self) -> int:
         """Return where it ends, in the grammar's words."""
         return self.span.end
+
+
+def n_open_braces(tokens: Iterable[Token]) -> int:
+    """Return how many braces are open behind some tokens; those that close none are passed over."""
+    n_open = 0
+    for token in tokens:
+        n_open = max(0, n_open + (token.type == "OPEN") - (token.type == "CLOSE"))
+    return n_open
