@@ -75,7 +75,7 @@ class Spot:
 def reread(before: InPieces, source: Source, edit: Edit) -> Spot:
     """Return the stretch that an edit touches, with the line before it: what follows could go on with that."""
     lines, starts = before.lines, before.places.line_starts
-    last_whole = min(starts.last_to(edit.start), len(lines) - 1) - 1
+    last_whole = before.places.line_at(edit.start) - 1
     first = next((at for at in range(last_whole, -1, -1) if lines[at].solid), 0)
     end = min(starts.last_to(edit.end) + 1, len(lines))
     while True:

@@ -49,6 +49,14 @@ class Places:
         """Return how many line ends there are before each line, which may be several of the text; last, in all."""
         return self.lines.sums("n_ends")
 
+    def piece_at(self, offset: int) -> int:
+        """Return the number of the piece that an offset is in; the end of the script is in its last."""
+        return min(self.starts.last_to(offset), len(self.pieces) - 1)
+
+    def line_at(self, offset: int) -> int:
+        """Return the number of the line that an offset is in; the end of the script is in its last."""
+        return min(self.line_starts.last_to(offset), len(self.lines) - 1)
+
     def row(self, number: int) -> int:
         """Return how many line ends there are before a piece."""
         return self.rows[self.first_lines[number]]
@@ -120,8 +128,7 @@ class Addressed(Source):
         offset = self.places(Span(offset, offset)).start
         if offset > len(self.text):
             return super().position(offset)
-        starts = self.places.line_starts
-        number = min(starts.last_to(offset), len(self.places.lines) - 1)
+        starts, number = self.places.line_starts, self.places.line_at(offset)
         piece = Source(self.text[starts[number] : starts[number + 1]])
         line, column = piece.position(offset - starts[number])
         return self.places.rows[number] + line, column

@@ -120,5 +120,5 @@ def _changes(snapshot: Snapshot, place: Span) -> Iterator[Change]:
 def _pieces_at(snapshot: Snapshot, place: Span) -> range:
     """Return the pieces that some lines touch."""
     made = snapshot.analysis.made
-    begin = min(made.places.starts.last_to(place.start), len(made.pieces) - 1)
+    begin = made.places.piece_at(place.start)
     return range(begin, max(bisect_left(made.places.starts, place.end), begin + 1))

@@ -16,7 +16,7 @@ from mlmg_lang.diagnostics import Diagnostic, Severity
 from mlmg_lang.ide.extracting import extraction
 from mlmg_lang.ide.inlining import inlinings
 from mlmg_lang.ide.rewriting import Edit
-from mlmg_lang.ide.touching import pieces_touching
+from mlmg_lang.ide.touching import pieces_touching, tokens_at
 from mlmg_lang.parsing import syntax
 from mlmg_lang.parsing.lexical import script_name
 from mlmg_lang.parsing.structure import is_sub
@@ -89,18 +89,18 @@ def _silencing(analysis: Analysis, code: str, offset: int) -> Edit | None:
     """Return what silences a diagnostic on the line of an offset; None where a comment would be in an open quote."""
     source = analysis.source
     end = _line_end(source, offset)
-    last = next((token for token in _tokens_around(analysis, end) if token[1].end == end), None)
-    if last is None or last[0] not in ("COMMENT", "UNCLOSED"):
+    tokens, further = tokens_at(analysis, end)
+    last = next((token for token in tokens if token.span.end + further == end), None)
+    if last is None or last.type not in ("COMMENT", "UNCLOSED"):
         return Edit(Span(end, end), f"  # mlmg: ignore[{code}]")
-    if last[0] == "UNCLOSED":
+    if last.type == "UNCLOSED":
         return None
-    comment = source.slice(last[1])
-    directive = _DIRECTIVE.match(comment)
+    start = last.span.start + further
+    directive = _DIRECTIVE.match(last.text)
     if directive is not None:
-        at = last[1].start + directive.end(1)
+        at = start + directive.end(1)
         return Edit(Span(at, at), f", {code}" if directive[1].strip() else code)
-    start = last[1].start
-    return None if re.match(r"#\s*mlmg\s*:", comment) else Edit(Span(start, start + 1), f"# mlmg: ignore[{code}]")
+    return None if re.match(r"#\s*mlmg\s*:", last.text) else Edit(Span(start, start + 1), f"# mlmg: ignore[{code}]")
 
 
 def _line_end(source: Source, offset: int) -> int:
@@ -109,13 +109,6 @@ def _line_end(source: Source, offset: int) -> int:
     start = source.line_starts[row - 1]
     end = source.line_starts[row] if row < len(source.line_starts) else len(source.text)
     return start + len(source.text[start:end].rstrip("\r\n"))
-
-
-def _tokens_around(analysis: Analysis, offset: int) -> Iterator[tuple[str, Span]]:
-    """Yield the tokens of the pieces that touch an offset, with where they are now."""
-    for piece, further in pieces_touching(analysis, Span(offset, offset)):
-        for token in piece.tokens:
-            yield token.type, Span(token.span.start + further, token.span.end + further)
 
 
 # --- qualify with graph ---------------------------------------------------------------------------------

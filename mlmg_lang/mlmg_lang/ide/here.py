@@ -30,7 +30,7 @@ def tokens_around(analysis: Analysis, offset: int) -> tuple[Token, ...]:
     """
     made = analysis.made
     starts, lines = made.places.line_starts, made.lines
-    at = min(starts.last_to(offset), len(lines) - 1)  # The end of the text is in its last line.
+    at = made.places.line_at(offset)
     first = next((number for number in range(at - 1, -1, -1) if lines[number].solid), 0)
     first = min((first, *_open_before(lines, first)))
     before, behind = _around(made, offset, first, at + 2)
@@ -51,7 +51,7 @@ def _open_before(lines: Chunks[Piece], end: int) -> Iterator[int]:
 def _around(made: InPieces, offset: int, first: int, end: int) -> tuple[range, range]:
     """Return the lines of the block at an offset that stand before and behind some."""
     starts = made.places.starts
-    at = min(starts.last_to(offset), len(made.pieces) - 1)
+    at = made.places.piece_at(offset)
     whole = (bisect_left(made.places.line_starts, one) for one in starts[at : at + 2])
     return range(min(next(whole), first), first), range(end, next(whole, end))
 

@@ -17,18 +17,17 @@ from mlmg_lang.ide.layers import graph_at
 from mlmg_lang.ide.occurrences import Occurrence, Sort, Statement, Symbol, occurrence_at, statements_at
 from mlmg_lang.ide.sayings import Understood, state_before, understood
 from mlmg_lang.ide.signature import described
+from mlmg_lang.ide.touching import tokens_at
 from mlmg_lang.ide.words import UNIT_SAYS, WORDS
 from mlmg_lang.ide.written import written
 from mlmg_lang.parsing import syntax
 from mlmg_lang.parsing.amounts import seconds_from_quantity, spelled, unit_of
 from mlmg_lang.parsing.structure import without_groups
-from mlmg_lang.parsing.tokenize import tokenize
-from mlmg_lang.parsing.tokens import Token
 from mlmg_lang.planning import typed
 from mlmg_lang.planning.names import Names
 from mlmg_lang.rendering.wording import safe
 from mlmg_lang.rules import read_rule
-from mlmg_lang.source import Source, Span
+from mlmg_lang.source import Span
 from mlmg_lang.spelling import joined, normal
 
 _MOST: Final = 8
@@ -174,24 +173,13 @@ def _topmost(analysis: Analysis, way: typed.Layering) -> typed.Layer:
 
 def _word_at(analysis: Analysis, offset: int) -> Hover | None:
     """Return what a word of the language says."""
-    tokens, further = _tokens_at(analysis, offset)
+    tokens, further = tokens_at(analysis, offset)
     at = bisect_right(tokens, offset - further, key=lambda token: token.span.start)
     for token in reversed(tokens[max(at - 2, 0) : at]):
         span = Span(token.span.start + further, token.span.end + further)
         if offset <= span.end and token.type in WORDS:
             return Hover(span, (Part(f"{code(token.text)}: {WORDS[token.type]}"),))
     return None
-
-
-def _tokens_at(analysis: Analysis, offset: int) -> tuple[Sequence[Token], int]:
-    """Return the tokens around an offset, and what makes offsets of their places."""
-    source, made = analysis.source, analysis.made
-    if offset > len(source.text):
-        file, base = source.file(offset)
-        return tokenize(Source(file.text)), base
-    number = min(made.places.line_starts.last_to(offset), len(made.lines) - 1)
-    line = made.lines[number]
-    return line.tokens, made.places.line_starts[number] - line.address
 
 
 # --- names -----------------------------------------------------------------------------------------------

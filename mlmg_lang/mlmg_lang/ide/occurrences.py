@@ -152,7 +152,7 @@ def _items_at(made: InPieces, offset: int) -> tuple[Sequence[syntax.Item], int]:
     """Return the items among which those at an offset are, and what makes offsets of their addresses."""
     starts = made.places.line_starts
     if offset <= starts[-1]:
-        number = min(starts.last_to(offset), len(made.lines) - 1)
+        number = made.places.line_at(offset)
         line = made.lines[number]
         return line.items, starts[number] - line.address
     further = starts[-1] + 1 - made.places.files.start

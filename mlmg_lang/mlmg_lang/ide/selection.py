@@ -27,7 +27,7 @@ def selection(analysis: Analysis, offset: int) -> tuple[Span, ...]:
     offset = min(max(offset, 0), whole.end)
     spans = {whole}
     if made.pieces:
-        at = min(made.places.starts.last_to(offset), len(made.pieces) - 1)
+        at = made.places.piece_at(offset)
         piece, further = made.pieces[at], made.places.starts[at] - made.pieces[at].address
         spans |= {Span(one.start + further, one.end + further) for one in _around(piece, offset - further)}
     ordered = sorted(spans, key=lambda span: (span.end - span.start, span))

@@ -9,11 +9,10 @@ from dataclasses import dataclass
 from mlmg_lang.analysis import Analysis, InPieces
 from mlmg_lang.definitions.gather import Signature
 from mlmg_lang.ide.arguments import argument_name, arguments, open_parentheses, used_definition
+from mlmg_lang.ide.touching import tokens_at
 from mlmg_lang.parsing import syntax
 from mlmg_lang.parsing.lexical import script_name
-from mlmg_lang.parsing.tokenize import tokenize
 from mlmg_lang.parsing.tokens import Token
-from mlmg_lang.source import Source
 from mlmg_lang.spelling import normal
 
 
@@ -51,7 +50,9 @@ class SignatureHelp:
 def signature_help(analysis: Analysis, offset: int) -> SignatureHelp | None:
     """Return what is being written at an offset in the use of a definition; None elsewhere."""
     made = analysis.made
-    before = _tokens_before(analysis, offset)
+    _, base = analysis.source.file(offset)
+    tokens, further = tokens_at(analysis, max(offset - 1, base))  # at the beginning of a line, that of the one before
+    before = tokens[: bisect_left(tokens, offset - further, key=lambda token: token.span.start)]
     definitions = made.gathered.definitions
     for opening in open_parentheses(before):
         let = used_definition(before[:opening], definitions)
@@ -83,18 +84,6 @@ def described(let: syntax.Let, signature: Signature | None, made: InPieces) -> t
         parameters.append(ParameterHelp(parameter.name.text, len(label), len(label) + len(written), says))
         label += written
     return f"{label})", tuple(parameters)
-
-
-def _tokens_before(analysis: Analysis, offset: int) -> Sequence[Token]:
-    """Return the tokens that begin before an offset, as far back as a parenthesis can be open there."""
-    source, made = analysis.source, analysis.made
-    if offset > len(source.text):
-        file, base = source.file(offset)
-        return tokenize(Source(file.text[: offset - base]))
-    number = max(bisect_left(made.places.line_starts, offset) - 1, 0)
-    line = made.lines[number]
-    address = offset - made.places.line_starts[number] + line.address
-    return line.tokens[: bisect_left(line.tokens, address, key=lambda token: token.span.start)]
 
 
 def _active(inside: Sequence[Token], parameters: Sequence[ParameterHelp]) -> int | None:

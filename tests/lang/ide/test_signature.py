@@ -33,6 +33,7 @@ def helps(marked: Callable[..., Any]) -> Ask:
         *(("GREET(IDLE # (, ,\n, ¦)", 1), ("repeat 2 { GREET(IDLE, ¦ }", 1), ("IDLE for for GREET(¦", 0)),
         *(("GREET(t = 1 sec, ¦)", 0), ("GREET(x = WALK, ¦", 1), ("GREET(WALK, t = 1 sec, ¦", None)),
         *(("GREET(no = 1, ¦", 0), ("GREET(t = 1 sec, WALK, ¦", None)),
+        *(("GREET(\n¦WALK\n", 0), ("GREET(WALK,\n¦\nwait 1 sec", 1)),
         *(("GREET(Upper-Body (TALK ¦", 0), ("GREET(BOTH(WALK, IDLE), ¦", 1), ('"GREET"(¦', 0)),
     ],
 )
