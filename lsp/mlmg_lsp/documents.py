@@ -151,6 +151,11 @@ class Documents:
         analysis = await asyncio.shield(ready)
         return self._snapshot(document, version, analysis)
 
+    def is_current(self, snapshot: Snapshot, with_others: bool = False) -> bool:
+        """Return whether a text is still as it was; `with_others`: and so is all else that is open."""
+        now, name = self.opened(), snapshot.analysis.source.name
+        return now == snapshot.opened if with_others else now.get(name) == snapshot.opened.get(name)
+
     async def all_read(self) -> None:
         """Wait until all open texts are known, as they are then."""
         while reading := [one.ready for one in self.all() if not one.ready.done()]:
@@ -165,7 +170,7 @@ class Documents:
             _against(analysis, document.shelved),
             self.client,
             self.opened(),
-            tuple(one.analysis for one in others if one.analysis is not None and one.ready.done()),
+            tuple(known for one in others if (known := one.known) is not None),
             document.kept,
             document.revision,
         )
@@ -191,13 +196,13 @@ class Documents:
 
     async def _analyse(self, document: Document) -> None:
         ready = document.ready
-        await self.warm()
-        # Not `wait_for`, which may pass over that the task is cancelled.
-        with suppress(TimeoutError):  # without its library, then
-            async with asyncio.timeout(GRACE_S):
-                await document.found.wait()
-        document.begun = True
         try:
+            await self.warm()
+            # Not `wait_for`, which may pass over that the task is cancelled.
+            with suppress(TimeoutError):  # without its library, then
+                async with asyncio.timeout(GRACE_S):
+                    await document.found.wait()
+            document.begun = True
             analysis = await self._reader.read(document)
         except Exception as error:
             ready.set_exception(error)
@@ -226,8 +231,11 @@ class Documents:
         await off_loop(undisturbed()(partial(self._get_ahead, snapshot)))
         settle()
 
-    def users(self, path: Path) -> list[Document]:
-        """Return the open texts that use a file."""
+    def users_of_changed(self, path: Path) -> list[Document]:
+        """Return the open texts that use a file which has changed; those that are being read find out by themselves."""
+        for document in self.all():
+            if not document.ready.done():
+                document.changed.add(os.path.realpath(path))
         return list(dict.fromkeys(user for user, _ in self._uses(path)))
 
     def outdated_users(self, path: Path) -> list[Document]:

@@ -64,11 +64,12 @@ class Executor:
             done = do(asked.code)
         else:
             snapshot = await self._snapshot_of(asked)
-            if params.command == "mlmg.play" and not await self._may_write(asked := _with_target(asked)):
+            plays = params.command == "mlmg.play"
+            if plays and not await self._may_write(asked := _with_target(asked)):
                 return None
             done = await self._shown(params, partial(do, snapshot, asked))
-        if asked.to is not None:
-            self._written.add(asked.to)
+            if plays and asked.to is not None:
+                self._written.add(asked.to)
         if asked.shown:
             self._show(done, asked)
         return done.result

@@ -68,9 +68,10 @@ class LibraryFinder:
                 self._background.begin(self._tell_of_none(document))
             else:
                 self._said.clear()
-        except (MlmgError, OSError) as error:
+        except Exception as error:  # whatever it is, the text must not be waited for any longer
             shelved = None
-            self._say_once(types.MessageType.Warning, f"The library cannot be used, so names are not checked: {error}")
+            why = error if isinstance(error, MlmgError | OSError) else repr(error)
+            self._say_once(types.MessageType.Warning, f"The library cannot be used, so names are not checked: {why}")
         finally:
             bar.end()
         self._found(document, shelved)

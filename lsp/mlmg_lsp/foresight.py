@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final
 
@@ -97,11 +97,19 @@ class Foresight:
         self._known.pop(uri, None)
         self._slow.discard(uri)
 
+    def keep(self, shelved: Iterable[Shelved | None]) -> None:
+        """Let go of what was worked out of other libraries than these, and with it of those."""
+        kept = set(shelved)
+        if self._travel is not None and self._travel[0] not in kept:
+            self._travel = None
+        if self._hopeless not in kept:
+            self._hopeless = None
+
     def end(self) -> None:
-        """Let go of all, with the libraries that it was worked out of."""
+        """Let go of all."""
         for uri in list(self._known):
             self.forget(uri)
-        self._travel = self._hopeless = None
+        self.keep(())
 
     def _begun(self, snapshot: Snapshot) -> _Known:
         known = self._known.get(snapshot.uri)

@@ -13,6 +13,7 @@ from pygls.lsp.server import LanguageServer
 
 from mlmg_lsp.features import (
     ASKED_AGAIN,
+    EDITING,
     FEATURES,
     INLAY_HINT,
     OF_A_PLACE,
@@ -21,6 +22,7 @@ from mlmg_lsp.features import (
     WORKSPACE_SYMBOL,
     answer_named,
 )
+from mlmg_lsp.open_text import Snapshot
 from mlmg_lsp.session import ClientSession
 from mlmg_lsp.work import off_loop
 
@@ -56,7 +58,7 @@ def _of_text(session: ClientSession, name: str) -> Callable[[Any], Any]:
         is_early = ASKED_AGAIN.get(name) in session.documents.client.refreshed
         line = _last_line(params) if is_early or name in OF_A_PLACE else None
         snapshot = await session.snapshot(params.text_document.uri, line)
-        return await off_loop(lambda: answer_named(name)(snapshot, params))
+        return await _answer(session, name, snapshot, params)
 
     return handler
 
@@ -68,7 +70,7 @@ def _of_all_texts_at(session: ClientSession, name: str) -> Callable[[Any], Any]:
         await session.documents.all_read()
         snapshot = await session.snapshot(params.text_document.uri)
         users = await session.closed_users(snapshot, params)
-        return await off_loop(lambda: answer_named(name)(snapshot, params, users))
+        return await _answer(session, name, snapshot, params, users)
 
     return handler
 
@@ -80,7 +82,7 @@ def _of_hints(session: ClientSession) -> Callable[[Any], Any]:
         snapshot = await session.snapshot(params.text_document.uri)
         kinds = session.workspace.settings.hints
         outlook = await session.foresight.of(snapshot) if kinds & {"motions", "arrivals"} else None
-        return await off_loop(lambda: answer_named(INLAY_HINT)(snapshot, params, outlook, kinds))
+        return await _answer(session, INLAY_HINT, snapshot, params, outlook, kinds)
 
     return handler
 
@@ -105,10 +107,24 @@ def _of_item(session: ClientSession, name: str) -> Callable[[Any], Any]:
         uri = item.data.get("uri") if isinstance(item.data, dict) else None
         if not isinstance(uri, str):
             return item
-        snapshot = await session.snapshot(uri)
-        return await off_loop(lambda: answer_named(name)(snapshot, item))
+        snapshot = await session.snapshot(uri, 0 if name in OF_A_PLACE else None)
+        return await _answer(session, name, snapshot, item)
 
     return handler
+
+
+async def _answer(session: ClientSession, name: str, snapshot: Snapshot, *asked: Any) -> Any:
+    """Return what is answered of a text.
+
+    Raises
+    ------
+    JsonRpcContentModified
+        If these are edits, and what they are for has been edited meanwhile.
+    """
+    answer = await off_loop(lambda: answer_named(name)(snapshot, *asked))
+    if name in EDITING and not session.documents.is_current(snapshot, name in OF_ALL_TEXTS):
+        raise JsonRpcContentModified(f"{snapshot.uri} has changed")
+    return answer
 
 
 def _last_line(params: Any) -> int:

@@ -58,8 +58,8 @@ def forget_way(error: BaseException | None) -> None:
 @contextmanager
 def undisturbed() -> Iterator[None]:
     """Do something that makes very much of which nearly nothing goes again, without searching through it meanwhile."""
-    gc.disable()
     try:
+        gc.disable()  # within, as a thread may be stopped at any step
         yield
     finally:
         gc.enable()

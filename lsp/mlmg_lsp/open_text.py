@@ -77,6 +77,7 @@ class Document:
     beginning : of the present text, while it is read for the first time. longer : done when there is another.
     revision : the number of the last analysis that was of a whole text; 0 before the first.
     begun : whether a first is under way. stale : whether the next has to be made afresh.
+    changed : the files that have changed while it was read, and may have been read before that.
     """
 
     uri: str
@@ -94,10 +95,17 @@ class Document:
     revision: int = 0
     begun: bool = False
     stale: bool = False
+    changed: set[str] = field(default_factory=set)
     kept: dict[str, Any] = field(default_factory=dict)
     task: asyncio.Task[None] | None = None
     finding: asyncio.Task[None] | None = None
     ahead: asyncio.Task[None] | None = None
+
+    @property
+    def known(self) -> Analysis | None:
+        """Return the analysis of the present text, if there is one."""
+        is_known = self.ready.done() and self.ready.exception() is None
+        return self.analysis if is_known else None
 
     def await_another(self) -> None:
         """Begin to wait for another analysis than the last."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Awaitable, Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
@@ -39,10 +40,11 @@ class Reader:
         """Return the analysis of a text, in which no file is other than it is open; the text keeps it too."""
         before, analysis = document.analysis, await self._read(document)
         # Where a file changes, who has used it is read again; but not who is reading it for the first time.
-        if before is None or before.source.used != analysis.source.used:
-            while self._is_outdated(analysis):
+        if document.changed or before is None or before.source.used != analysis.source.used:
+            while self._is_outdated(document, analysis):
                 document.stale = True
                 analysis = await self._read(document)
+            document.changed.clear()
         return analysis
 
     async def _read(self, document: Document) -> Analysis:
@@ -51,6 +53,7 @@ class Reader:
         lines, n_read = document.lines, document.n_read
         if document.stale or document.analysis is None:
             n_read = 0
+            document.changed.clear()
         ends = [(len(lines), True)] if n_read is None else await off_loop(lambda: list(beginnings(lines, n_read)))
         for n_lines, is_sure in ends[:-1]:
             analysis = await off_loop(self._work(document, n_lines))
@@ -74,9 +77,15 @@ class Reader:
         again = partial(analyse_again, before, source)
         return again if document.n_read is None else undisturbed()(again)
 
-    def _is_outdated(self, analysis: Analysis) -> bool:
-        """Return whether a text has read another text of a file than the one that is open."""
-        return any(self.text_of(file.name) not in (None, file.text) for file in analysis.source.used)
+    def _is_outdated(self, document: Document, analysis: Analysis) -> bool:
+        """Return whether a text may have read another text of a file than there is now, or have missed one."""
+        if document.changed and not analysis.definitions.complete:
+            return True
+        used = analysis.source.used
+        return any(
+            os.path.realpath(file.name) in document.changed or self.text_of(file.name) not in (None, file.text)
+            for file in used
+        )
 
 
 def _take(document: Document, analysis: Analysis, n_read: int | None) -> None:

@@ -194,7 +194,8 @@ class ClientSession:
         document.shelved = shelved
         if is_another:  # what is kept would keep the other library, which may be large
             document.kept = {}
-            self.foresight.end()
+            self.foresight.forget(document.uri)
+            self.foresight.keep(one.shelved for one in self.documents.all())
         document.found.set()
         if is_another and document.begun:
             self.documents.analyse(document, afresh=True)
@@ -202,7 +203,7 @@ class ClientSession:
 
     def _used_changed(self, path: Path) -> None:
         """Look again at the texts that use a file."""
-        self._look_again(self.documents.users(path))
+        self._look_again(self.documents.users_of_changed(path))
 
     def _look_again(self, users: list[Document]) -> None:
         for document in users:

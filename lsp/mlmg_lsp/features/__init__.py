@@ -81,12 +81,10 @@ FEATURES: Final[tuple[tuple[str, Any, str], ...]] = (
 )
 """By method: what the client is told of it, and what answers a request about a text."""
 
-OF_A_PLACE: Final = frozenset(
-    (
-        *("completion.completion", "navigation.hover", "navigation.definition", "navigation.signature_help"),
-        "semantic_tokens.within",
-    )
-)
+OF_A_PLACE: Final = frozenset((
+    *("completion.completion", "completion.resolve", "semantic_tokens.within"),
+    *("navigation.hover", "navigation.definition", "navigation.signature_help"),
+))  # fmt: skip
 """What is answered by what stands before and at a place."""
 ASKED_AGAIN: Final[Mapping[str, str]] = {
     "diagnostic.diagnostic": "diagnostics",
@@ -95,6 +93,11 @@ ASKED_AGAIN: Final[Mapping[str, str]] = {
     "code_lens.code_lens": "code_lens",
 }
 """What is answered by a beginning at first, and what a client can then be told to ask again for, by its capability."""
+EDITING: Final = frozenset((
+    *("formatting.formatting", "formatting.range_formatting", "formatting.on_type_formatting"),
+    *("code_action.code_action", "code_action.resolve", "navigation.rename_to"),
+))  # fmt: skip
+"""What is answered by edits, which are right for that text alone."""
 OF_ALL_TEXTS: Final = frozenset({"navigation.references_of", "navigation.rename_to"})
 """What is answered by all texts that are open."""
 HOME: Final = "navigation.home_of"
