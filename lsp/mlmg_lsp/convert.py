@@ -12,6 +12,7 @@ from typing import Final
 
 from lsprotocol import types
 
+from mlmg_lang.common_ends import common_ends
 from mlmg_lang.diagnostics import Diagnostic, Severity
 from mlmg_lang.ide.links import use_leading_to
 from mlmg_lang.rules import page_of, read_rule
@@ -195,9 +196,7 @@ def _is_respaced(one: str, other: str) -> bool:
 
 
 def _differences(old: Sequence[str], new: Sequence[str]) -> Iterator[tuple[int, int, int, int]]:
-    limit = min(len(old), len(new))
-    head = next((at for at in range(limit) if old[at] != new[at]), limit)
-    tail = next((at for at in range(limit - head) if old[-1 - at] != new[-1 - at]), limit - head)
+    head, tail = common_ends(old, new)
     middle, others = old[head : len(old) - tail], new[head : len(new) - tail]
     if len(middle) + len(others) > _MOST_COMPARED:
         yield head, len(old) - tail, head, len(new) - tail

@@ -10,6 +10,7 @@ from itertools import accumulate, chain, islice, pairwise, takewhile
 from mlmg_lang.analysis import InPieces
 from mlmg_lang.blocks import Statement, WholeBlock, block_of, blocks
 from mlmg_lang.chunks import Chunks, all_of
+from mlmg_lang.common_ends import common_ends
 from mlmg_lang.definitions.expand import names_in
 from mlmg_lang.definitions.gather import Definitions
 from mlmg_lang.parsing.cutting import Balance, balance, cut
@@ -35,23 +36,8 @@ class Edit:
 
 def edit_between(before: str, after: str) -> Edit:
     """Return the smallest edit that makes one text of another."""
-    limit = min(len(before), len(after))
-    start = _longest(limit, lambda first, end: before[first:end] == after[first:end])
-    ends = len(before), len(after)
-    ending = _longest(
-        limit - start,
-        lambda first, end: before[ends[0] - end : ends[0] - first] == after[ends[1] - end : ends[1] - first],
-    )
-    return Edit(start, len(before) - ending, len(after) - len(before))
-
-
-def _longest(limit: int, is_common: Callable[[int, int], bool]) -> int:
-    """Return how long two texts are the same, up to a limit; each stretch is compared about once."""
-    length, step = 0, 1 << limit.bit_length()
-    while step := step // 2:
-        if length + step <= limit and is_common(length, length + step):
-            length += step
-    return length
+    head, tail = common_ends(before, after)
+    return Edit(head, len(before) - tail, len(after) - len(before))
 
 
 @dataclass(frozen=True, slots=True)

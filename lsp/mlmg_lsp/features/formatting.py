@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 from lsprotocol import types
 
+from mlmg_lang.common_ends import common_ends
 from mlmg_lang.formatting.by_pieces import forms_of
 from mlmg_lang.formatting.format_script import format_source
 from mlmg_lang.formatting.line_changes import (
@@ -87,19 +88,12 @@ def _least(source: Source, change: Change) -> Change | None:
     before, after = source.slice(change.span), change.text
     if change.span.end == len(source.text) and before[-1:] not in ("\r", "\n"):
         after = after.rstrip("\r\n")
-    head = _n_alike(before, after)
-    tail = _n_alike(before[head:][::-1], after[head:][::-1])
+    head, tail = common_ends(before, after)
     if before[len(before) - tail - 1 :].startswith("\r\n"):
         tail -= 1  # no cursor stands there
     if head == len(before) == len(after):
         return None
     return Change(Span(change.span.start + head, change.span.end - tail), after[head : len(after) - tail])
-
-
-def _n_alike(one: str, other: str) -> int:
-    """Return with how many of the same signs two texts begin."""
-    most = min(len(one), len(other))
-    return next((at for at in range(most) if one[at] != other[at]), most)
 
 
 def _changes(snapshot: Snapshot, place: Span) -> Iterator[Change]:

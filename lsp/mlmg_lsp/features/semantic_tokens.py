@@ -13,6 +13,7 @@ from uuid import uuid4
 
 from lsprotocol import types
 
+from mlmg_lang.common_ends import common_ends
 from mlmg_lang.ide import semantics
 from mlmg_lang.source import Source
 from mlmg_lsp.convert import span_of
@@ -136,20 +137,5 @@ def _encoded(source: Source, marks: Iterable[semantics.Mark], encoding: Encoding
 
 def edit_between(before: Sequence[int], after: Sequence[int]) -> tuple[int, int, Sequence[int]]:
     """Return the smallest stretch that makes other numbers of some: where it begins, how many go, and which come."""
-    limit = min(len(before), len(after))
-    head = _n_common(before[:limit], after[:limit])
-    rest = limit - head
-    tail = _n_common(before[len(before) - rest :][::-1], after[len(after) - rest :][::-1])
+    head, tail = common_ends(before, after)
     return head, len(before) - head - tail, after[head : len(after) - tail]
-
-
-def _n_common(one: Sequence[int], other: Sequence[int]) -> int:
-    """Return how many numbers are the same from the first on, of two sequences as long as each other."""
-    low, high = 0, len(one)
-    while low < high:
-        middle = (low + high + 1) // 2
-        if one[low:middle] == other[low:middle]:
-            low = middle
-        else:
-            high = middle - 1
-    return low

@@ -7,10 +7,10 @@ from collections import defaultdict
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import takewhile
 
 from mlmg_lang.analysis import InPieces
 from mlmg_lang.blocks import Statement
+from mlmg_lang.common_ends import common_ends
 from mlmg_lang.ide.hints import Going, Outlook
 from mlmg_lang.planning import resolved
 from mlmg_lang.planning.course import driver
@@ -50,8 +50,8 @@ class Remembered:
     def of(self, now: InPieces) -> Outlook:
         """Return how the commands of a later text would go."""
         before, after = (one.source.text.splitlines(keepends=True) for one in (self.text, now))
-        head = _n_common(before, after)
-        tail = min(_n_common(before[::-1], after[::-1]), len(now.source.text) - head)
+        n_first, n_last = common_ends(before, after)
+        head, tail = (sum(map(len, lines)) for lines in (after[:n_first], after[len(after) - n_last :]))
         return _Remembering(self, list(now.pieces), list(now.places.starts), len(now.source.text), head, tail)
 
     def of_piece(self, piece: Statement, command: Span) -> Going | None:
@@ -98,11 +98,6 @@ class _Remembering:
 
 def _on(span: Span, further: int) -> Span:
     return Span(span.start + further, span.end + further)
-
-
-def _n_common(one: Sequence[str], other: Sequence[str]) -> int:
-    """Return how long the lines are together that are the same from the first on."""
-    return sum(len(line) for line, _ in takewhile(lambda pair: pair[0] == pair[1], zip(one, other, strict=False)))
 
 
 @dataclass(frozen=True, slots=True)
