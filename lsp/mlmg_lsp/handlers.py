@@ -2,29 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Awaitable, Callable, Mapping
 from contextlib import suppress
 from functools import partial
-from typing import Any
+from typing import Any, Final, TypeAlias
 
 from lsprotocol import types
 from pygls.exceptions import JsonRpcContentModified
 from pygls.lsp.server import LanguageServer
 
-from mlmg_lsp.features import (
-    ASKED_AGAIN,
-    EDITING,
-    FEATURES,
-    INLAY_HINT,
-    OF_A_PLACE,
-    OF_ALL_TEXTS,
-    RESOLVING,
-    WORKSPACE_SYMBOL,
-    answer_named,
-)
+from mlmg_lsp.features import FEATURES, Feature, Scope, answer_named
 from mlmg_lsp.open_text import Snapshot
 from mlmg_lsp.session import ClientSession
 from mlmg_lsp.work import off_loop
+
+Answering: TypeAlias = Callable[[ClientSession, Feature, Any], Awaitable[Any]]
+"""Answers a request by its parameters, off the thread that reads messages."""
 
 
 def register(server: LanguageServer, session: ClientSession) -> None:
@@ -42,78 +35,58 @@ def register(server: LanguageServer, session: ClientSession) -> None:
     )
     for method, handler in handed_on:
         server.feature(method)(partial(handler))  # pygls writes on what it is given, which methods do not let it do
-    for method, options, name in FEATURES:
-        answering = _of_all_texts_at if name in OF_ALL_TEXTS else _of_text
-        server.feature(method, options)(answering(session, name))
-    for method, name in RESOLVING:
-        server.feature(method)(_of_item(session, name))
-    server.feature(types.TEXT_DOCUMENT_INLAY_HINT)(_of_hints(session))
-    server.feature(types.WORKSPACE_SYMBOL)(_of_all_texts(session))
+    for feature in FEATURES:
+        server.feature(feature.method, feature.options)(partial(_ANSWERING[feature.scope], session, feature))
 
 
-def _of_text(session: ClientSession, name: str) -> Callable[[Any], Any]:
-    """Return what answers a request about a text, off the thread that reads messages."""
-
-    async def handler(params: Any) -> Any:
-        is_early = ASKED_AGAIN.get(name) in session.documents.client.refreshed
-        line = _last_line(params) if is_early or name in OF_A_PLACE else None
-        snapshot = await session.snapshot(params.text_document.uri, line)
-        return await _answer(session, name, snapshot, params)
-
-    return handler
+async def _of_text(session: ClientSession, feature: Feature, params: Any) -> Any:
+    is_early = feature.early or feature.refreshed in session.documents.client.refreshed
+    snapshot = await session.snapshot(params.text_document.uri, _last_line(params) if is_early else None)
+    return await _answer(session, feature, snapshot, params)
 
 
-def _of_all_texts_at(session: ClientSession, name: str) -> Callable[[Any], Any]:
-    """Return what answers a request about a place by all open texts, and by closed ones that use the same file."""
-
-    async def handler(params: Any) -> Any:
-        await session.documents.all_read()
-        snapshot = await session.snapshot(params.text_document.uri)
-        users = await session.closed_users(snapshot, params)
-        return await _answer(session, name, snapshot, params, users)
-
-    return handler
+async def _of_users(session: ClientSession, feature: Feature, params: Any) -> Any:
+    await session.documents.all_read()
+    snapshot = await session.snapshot(params.text_document.uri)
+    users = await session.closed_users(snapshot, params)
+    return await _answer(session, feature, snapshot, params, users)
 
 
-def _of_hints(session: ClientSession) -> Callable[[Any], Any]:
-    """Return what answers for hints: with what is foreseen of the text, if that is wanted."""
-
-    async def handler(params: types.InlayHintParams) -> Any:
-        snapshot = await session.snapshot(params.text_document.uri)
-        kinds = session.workspace.settings.hints
-        outlook = await session.foresight.of(snapshot) if kinds & {"motions", "arrivals"} else None
-        return await _answer(session, INLAY_HINT, snapshot, params, outlook, kinds)
-
-    return handler
+async def _of_foreseen(session: ClientSession, feature: Feature, params: types.InlayHintParams) -> Any:
+    """Answer with what is foreseen of the text, if that is wanted."""
+    snapshot = await session.snapshot(params.text_document.uri)
+    kinds = session.workspace.settings.hints
+    outlook = await session.foresight.of(snapshot) if kinds & {"motions", "arrivals"} else None
+    return await _answer(session, feature, snapshot, params, outlook, kinds)
 
 
-def _of_all_texts(session: ClientSession) -> Callable[[Any], Any]:
-    """Return what looks for names in all open texts; one that is edited meanwhile is left out."""
-
-    async def handler(params: types.WorkspaceSymbolParams) -> Any:
-        snapshots = []
-        for document in session.documents.all():
-            with suppress(JsonRpcContentModified):
-                snapshots.append(await session.snapshot(document.uri))
-        return await off_loop(lambda: answer_named(WORKSPACE_SYMBOL)(snapshots, params))
-
-    return handler
+async def _of_all_open(session: ClientSession, feature: Feature, params: Any) -> Any:
+    """Answer by all open texts; one that is edited meanwhile is left out."""
+    snapshots = []
+    for document in session.documents.all():
+        with suppress(JsonRpcContentModified):
+            snapshots.append(await session.snapshot(document.uri))
+    return await off_loop(lambda: answer_named(feature.answer)(snapshots, params))
 
 
-def _of_item(session: ClientSession, name: str) -> Callable[[Any], Any]:
-    """Return what adds to an item that was answered before; it says itself of which text it is."""
-
-    async def handler(item: Any) -> Any:
-        uri = item.data.get("uri") if isinstance(item.data, dict) else None
-        if not isinstance(uri, str):
-            return item
-        snapshot = await session.snapshot(uri, 0 if name in OF_A_PLACE else None)
-        return await _answer(session, name, snapshot, item)
-
-    return handler
+async def _of_item(session: ClientSession, feature: Feature, item: Any) -> Any:
+    uri = item.data.get("uri") if isinstance(item.data, dict) else None
+    if not isinstance(uri, str):
+        return item
+    snapshot = await session.snapshot(uri, 0 if feature.early else None)
+    return await _answer(session, feature, snapshot, item)
 
 
-async def _answer(session: ClientSession, name: str, snapshot: Snapshot, *asked: Any) -> Any:
+_ANSWERING: Final[Mapping[Scope, Answering]] = {
+    Scope.TEXT: _of_text,
+    Scope.FORESEEN: _of_foreseen,
+    Scope.USERS: _of_users,
+    Scope.ALL_OPEN: _of_all_open,
+    Scope.ITEM: _of_item,
+}
+
+
+async def _answer(session: ClientSession, feature: Feature, snapshot: Snapshot, *asked: Any) -> Any:
     """Return what is answered of a text.
 
     Raises
@@ -121,8 +94,8 @@ async def _answer(session: ClientSession, name: str, snapshot: Snapshot, *asked:
     JsonRpcContentModified
         If these are edits, and what they are for has been edited meanwhile.
     """
-    answer = await off_loop(lambda: answer_named(name)(snapshot, *asked))
-    if name in EDITING and not session.documents.is_current(snapshot, name in OF_ALL_TEXTS):
+    answer = await off_loop(lambda: answer_named(feature.answer)(snapshot, *asked))
+    if feature.edits and not session.documents.is_current(snapshot, feature.scope is Scope.USERS):
         raise JsonRpcContentModified(f"{snapshot.uri} has changed")
     return answer
 

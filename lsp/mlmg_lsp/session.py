@@ -17,7 +17,7 @@ from mlmg_lsp.client import client_from
 from mlmg_lsp.closed import ClosedScripts, Users
 from mlmg_lsp.documents import Documents
 from mlmg_lsp.executing import Executor
-from mlmg_lsp.features import ASKED_AGAIN, HINTS_AHEAD, HOME, answer_named, get_ahead, warm
+from mlmg_lsp.features import FEATURES, get_ahead, warm
 from mlmg_lsp.finding import LibraryFinder
 from mlmg_lsp.foresight import Foresight
 from mlmg_lsp.libraries import Shelf, Shelved
@@ -96,7 +96,9 @@ class ClientSession:
         """Return the scripts that are not open and use the file which defines the name at a place."""
 
         def look() -> Users:
-            home = answer_named(HOME)(snapshot, params)
+            from mlmg_lsp.features.navigation import home_of
+
+            home = home_of(snapshot, params)
             if home is None:
                 return Users()
             own = path_of(snapshot.uri)
@@ -186,7 +188,7 @@ class ClientSession:
 
     def _is_whole(self) -> None:
         """Let the client ask again for what has been answered by a beginning."""
-        self._asker.refresh(*ASKED_AGAIN.values())
+        self._asker.refresh(*(feature.refreshed for feature in FEATURES if feature.refreshed))
 
     def _take_library(self, document: Document, shelved: Shelved | None) -> None:
         """Look again at a text that has another library than before."""
@@ -219,7 +221,9 @@ class ClientSession:
         self._asker.refresh()
 
     def _get_hints(self, snapshot: Snapshot, outlook: Outlook) -> None:
-        answer_named(HINTS_AHEAD)(snapshot, outlook, self.workspace.settings.hints)
+        from mlmg_lsp.features import inlay_hint
+
+        inlay_hint.get_ahead(snapshot, outlook, self.workspace.settings.hints)
 
     def _tell_not_foreseen(self, error: Exception) -> None:
         message = f"What commands will play cannot be foreseen: {error!r}"

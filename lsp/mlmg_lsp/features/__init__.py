@@ -6,49 +6,81 @@ This table is all that `initialize` needs. The modules are imported after it, to
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from enum import Enum, auto
 from importlib import import_module
 from pkgutil import walk_packages
 from typing import Any, Final, TypeAlias
 
 from lsprotocol import types
 
+from mlmg_lsp.features.legend import LEGEND
 from mlmg_lsp.memory import settle
 
 Answer: TypeAlias = Callable[..., Any]
 """Takes a `Snapshot` and the parameters of a request, and what else it waits for."""
 
-TOKEN_TYPES: Final = (
-    *("motion", "tag", "name", "graph", "definition", "parameter", "keyword", "number", "unit", "string", "comment"),
-)
-"""What a token can be, by `ide.semantics.Kind`, in the order of the legend."""
-_SHOWN_AS: Final = {"motion": "enumMember", "tag": "type", "name": "variable", "graph": "namespace"} | {
-    "definition": "function",
-    "unit": "keyword",
-}
-"""What themes of editors know them by, where that is another name."""
-DECLARATION: Final = 1
-LEGEND: Final = types.SemanticTokensLegend([_SHOWN_AS.get(one, one) for one in TOKEN_TYPES], ["declaration"])
 
-FEATURES: Final[tuple[tuple[str, Any, str], ...]] = (
-    (
+class Scope(Enum):
+    """What a request is about."""
+
+    TEXT = auto()
+    FORESEEN = auto()
+    """A text, and how its commands will go."""
+    USERS = auto()
+    """A text, all others that are open, and those on disk that use the file of a definition."""
+    ALL_OPEN = auto()
+    ITEM = auto()
+    """Something that was answered before, and says itself of which text it is."""
+
+
+@dataclass(frozen=True, slots=True)
+class Feature:
+    """A request, and what answers it.
+
+    Attributes
+    ----------
+    method : as the protocol names it. options : what a client is told of it.
+    answer : a function in a module of this package.
+    early : whether what stands before and at a place is enough, if the text is still being read.
+    refreshed : the name of what a client can be told to ask for again; if it can, any beginning of the text will do.
+    edits : whether the answer is edits, which are right for that text alone.
+    """
+
+    method: str
+    answer: str
+    options: Any = None
+    scope: Scope = Scope.TEXT
+    early: bool = False
+    refreshed: str = ""
+    edits: bool = False
+
+
+FEATURES: Final = (
+    Feature(
         types.TEXT_DOCUMENT_DIAGNOSTIC,
-        types.DiagnosticOptions(inter_file_dependencies=True, workspace_diagnostics=False, identifier="mlmg"),
         "diagnostic.diagnostic",
+        types.DiagnosticOptions(inter_file_dependencies=True, workspace_diagnostics=False, identifier="mlmg"),
+        refreshed="diagnostics",
     ),
-    (
+    Feature(
         types.TEXT_DOCUMENT_COMPLETION,
-        types.CompletionOptions(trigger_characters=[" ", "(", '"'], resolve_provider=True),
         "completion.completion",
+        types.CompletionOptions(trigger_characters=[" ", "(", '"'], resolve_provider=True),
+        early=True,
     ),
-    (types.TEXT_DOCUMENT_FORMATTING, None, "formatting.formatting"),
-    (types.TEXT_DOCUMENT_RANGE_FORMATTING, None, "formatting.range_formatting"),
-    (
+    Feature(types.COMPLETION_ITEM_RESOLVE, "completion.resolve", scope=Scope.ITEM, early=True),
+    Feature(types.TEXT_DOCUMENT_FORMATTING, "formatting.formatting", edits=True),
+    Feature(types.TEXT_DOCUMENT_RANGE_FORMATTING, "formatting.range_formatting", edits=True),
+    Feature(
         types.TEXT_DOCUMENT_ON_TYPE_FORMATTING,
-        types.DocumentOnTypeFormattingOptions("\n", more_trigger_character=["}"]),
         "formatting.on_type_formatting",
+        types.DocumentOnTypeFormattingOptions("\n", more_trigger_character=["}"]),
+        edits=True,
     ),
-    (
+    Feature(
         types.TEXT_DOCUMENT_CODE_ACTION,
+        "code_action.code_action",
         types.CodeActionOptions(
             code_action_kinds=[
                 types.CodeActionKind.QuickFix,
@@ -57,51 +89,40 @@ FEATURES: Final[tuple[tuple[str, Any, str], ...]] = (
             ],
             resolve_provider=True,
         ),
-        "code_action.code_action",
+        edits=True,
     ),
-    (types.TEXT_DOCUMENT_HOVER, None, "navigation.hover"),
-    (types.TEXT_DOCUMENT_DEFINITION, None, "navigation.definition"),
-    (types.TEXT_DOCUMENT_REFERENCES, None, "navigation.references_of"),
-    (types.TEXT_DOCUMENT_DOCUMENT_HIGHLIGHT, None, "navigation.highlight"),
-    (types.TEXT_DOCUMENT_PREPARE_RENAME, None, "navigation.prepare_rename"),
-    (types.TEXT_DOCUMENT_RENAME, types.RenameOptions(prepare_provider=True), "navigation.rename_to"),
-    (types.TEXT_DOCUMENT_DOCUMENT_LINK, None, "navigation.document_link"),
-    (
+    Feature(types.CODE_ACTION_RESOLVE, "code_action.resolve", scope=Scope.ITEM, edits=True),
+    Feature(types.TEXT_DOCUMENT_HOVER, "navigation.hover", early=True),
+    Feature(types.TEXT_DOCUMENT_DEFINITION, "navigation.definition", early=True),
+    Feature(types.TEXT_DOCUMENT_REFERENCES, "navigation.references_of", scope=Scope.USERS),
+    Feature(types.TEXT_DOCUMENT_DOCUMENT_HIGHLIGHT, "navigation.highlight"),
+    Feature(types.TEXT_DOCUMENT_PREPARE_RENAME, "navigation.prepare_rename"),
+    Feature(
+        types.TEXT_DOCUMENT_RENAME,
+        "navigation.rename_to",
+        types.RenameOptions(prepare_provider=True),
+        scope=Scope.USERS,
+        edits=True,
+    ),
+    Feature(types.TEXT_DOCUMENT_DOCUMENT_LINK, "navigation.document_link"),
+    Feature(
         types.TEXT_DOCUMENT_SIGNATURE_HELP,
-        types.SignatureHelpOptions(trigger_characters=["(", ","]),
         "navigation.signature_help",
+        types.SignatureHelpOptions(trigger_characters=["(", ","]),
+        early=True,
     ),
-    (types.TEXT_DOCUMENT_CODE_LENS, None, "code_lens.code_lens"),
-    (types.TEXT_DOCUMENT_DOCUMENT_SYMBOL, None, "outline.document_symbol"),
-    (types.TEXT_DOCUMENT_FOLDING_RANGE, None, "structure.folding_range"),
-    (types.TEXT_DOCUMENT_SELECTION_RANGE, None, "structure.selection_range"),
-    (types.TEXT_DOCUMENT_SEMANTIC_TOKENS_FULL, LEGEND, "semantic_tokens.full"),
-    (types.TEXT_DOCUMENT_SEMANTIC_TOKENS_FULL_DELTA, LEGEND, "semantic_tokens.delta"),
-    (types.TEXT_DOCUMENT_SEMANTIC_TOKENS_RANGE, LEGEND, "semantic_tokens.within"),
+    Feature(types.TEXT_DOCUMENT_INLAY_HINT, "inlay_hint.inlay_hint", scope=Scope.FORESEEN),
+    Feature(types.TEXT_DOCUMENT_CODE_LENS, "code_lens.code_lens", refreshed="code_lens"),
+    Feature(types.TEXT_DOCUMENT_DOCUMENT_SYMBOL, "outline.document_symbol"),
+    Feature(types.WORKSPACE_SYMBOL, "workspace_symbol.workspace_symbol", scope=Scope.ALL_OPEN),
+    Feature(types.TEXT_DOCUMENT_FOLDING_RANGE, "structure.folding_range"),
+    Feature(types.TEXT_DOCUMENT_SELECTION_RANGE, "structure.selection_range"),
+    Feature(types.TEXT_DOCUMENT_SEMANTIC_TOKENS_FULL, "semantic_tokens.full", LEGEND, refreshed="semantic_tokens"),
+    Feature(
+        types.TEXT_DOCUMENT_SEMANTIC_TOKENS_FULL_DELTA, "semantic_tokens.delta", LEGEND, refreshed="semantic_tokens"
+    ),
+    Feature(types.TEXT_DOCUMENT_SEMANTIC_TOKENS_RANGE, "semantic_tokens.within", LEGEND, early=True),
 )
-"""By method: what the client is told of it, and what answers a request about a text."""
-
-OF_A_PLACE: Final = frozenset((
-    *("completion.completion", "completion.resolve", "semantic_tokens.within"),
-    *("navigation.hover", "navigation.definition", "navigation.signature_help"),
-))  # fmt: skip
-"""What is answered by what stands before and at a place."""
-ASKED_AGAIN: Final[Mapping[str, str]] = {
-    "diagnostic.diagnostic": "diagnostics",
-    "semantic_tokens.full": "semantic_tokens",
-    "semantic_tokens.delta": "semantic_tokens",
-    "code_lens.code_lens": "code_lens",
-}
-"""What is answered by a beginning at first, and what a client can then be told to ask again for, by its capability."""
-EDITING: Final = frozenset((
-    *("formatting.formatting", "formatting.range_formatting", "formatting.on_type_formatting"),
-    *("code_action.code_action", "code_action.resolve", "navigation.rename_to"),
-))  # fmt: skip
-"""What is answered by edits, which are right for that text alone."""
-OF_ALL_TEXTS: Final = frozenset({"navigation.references_of", "navigation.rename_to"})
-"""What is answered by all texts that are open."""
-HOME: Final = "navigation.home_of"
-"""What says in which file it is defined: scripts that use it are asked too though they are not open."""
 
 COMMANDS: Final[Mapping[str, str]] = {
     "mlmg.play": "execute_command.play",
@@ -111,22 +132,8 @@ COMMANDS: Final[Mapping[str, str]] = {
 }
 """By command of workspace/executeCommand, what does it; imported when it is first asked for."""
 
-INLAY_HINT: Final = "inlay_hint.inlay_hint"
-"""What answers for hints, which waits for more than a text."""
-HINTS_AHEAD: Final = "inlay_hint.get_ahead"
-"""What finds them out before anybody asks."""
-
-WORKSPACE_SYMBOL: Final = "workspace_symbol.workspace_symbol"
-"""What looks for names in all open texts."""
-
 _COMPILER: Final = tuple(f"mlmg_lang.{one}" for one in ("definitions", "formatting", "ide", "parsing", "planning"))
 """The packages of which analyses and answers import modules where they need them."""
-
-RESOLVING: Final[tuple[tuple[str, str], ...]] = (
-    (types.COMPLETION_ITEM_RESOLVE, "completion.resolve"),
-    (types.CODE_ACTION_RESOLVE, "code_action.resolve"),
-)
-"""By method, what adds to an item that was answered before."""
 
 
 def answer_named(name: str) -> Answer:
@@ -146,8 +153,8 @@ def warm() -> None:
     from mlmg_lang.source import Source
     from mlmg_lsp.nothing import Nothing
 
-    for name in (*(name for _, _, name in FEATURES), *(name for _, name in RESOLVING), INLAY_HINT, WORKSPACE_SYMBOL):
-        answer_named(name)
+    for feature in FEATURES:
+        answer_named(feature.answer)
     for package in _COMPILER:
         for found in walk_packages(import_module(package).__path__, f"{package}."):
             import_module(found.name)

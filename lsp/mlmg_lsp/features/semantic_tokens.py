@@ -17,7 +17,7 @@ from mlmg_lang.common_ends import common_ends
 from mlmg_lang.ide import semantics
 from mlmg_lang.source import Source
 from mlmg_lsp.convert import span_of
-from mlmg_lsp.features import DECLARATION, TOKEN_TYPES
+from mlmg_lsp.features.legend import DECLARATION, TOKEN_TYPES
 from mlmg_lsp.open_text import Snapshot
 from mlmg_lsp.positions import EditorPosition, Encoding, units_in
 from mlmg_lsp.written import Json, Written, written

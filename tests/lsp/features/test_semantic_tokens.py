@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from lsprotocol import types
 
 from mlmg_lang.ide.semantics import paint
-from mlmg_lsp.features import TOKEN_TYPES
+from mlmg_lsp.features.legend import TOKEN_TYPES
 from mlmg_lsp.features.semantic_tokens import delta, edit_between, full, within
 from mlmg_lsp.open_text import Snapshot
 
