@@ -24,7 +24,7 @@ def moved(value: T, place: Callable[[Span], Span]) -> T:
 
 def by(distance: int) -> Callable[[Span], Span]:
     """Return what moves every span by the same distance."""
-    return lambda span: Span(span.start + distance, span.end + distance)
+    return lambda span: Span(span.start + distance, span.end + distance)  # it does so with many: `shifted` takes longer
 
 
 def _moved(value: object, place: Callable[[Span], Span]) -> object:

@@ -65,12 +65,12 @@ class Places:
         """Return where a span is now that may begin in one piece, and end in another."""
         if span.start in self.files:
             further = self.starts[-1] + 1 - self.files.start
-            return Span(span.start + further, span.end + further)
+            return span.shifted(further)
         at = bisect_right(self._addresses, span.start) - 1
         begin, size, start = self._stretches[at]
         further = start - begin
         if span.start <= span.end <= begin + size:
-            return Span(span.start + further, span.end + further)
+            return span.shifted(further)
         return Span(span.start + further, self(Span(span.end - 1, span.end)).end)
 
     @cached_property

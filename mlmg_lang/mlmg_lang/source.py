@@ -15,6 +15,10 @@ class Span:
     start: int
     end: int
 
+    def shifted(self, distance: int) -> Span:
+        """Return a stretch as long as this, further on by so much."""
+        return Span(self.start + distance, self.end + distance)
+
 
 @dataclass(frozen=True)
 class Source:

@@ -108,7 +108,7 @@ def _changes(snapshot: Snapshot, place: Span) -> Iterator[Change]:
     for number in _pieces_at(snapshot, place):
         start = starts[number]
         for change in forms.changes(number):
-            yield Change(Span(change.span.start + start, change.span.end + start), change.text)
+            yield Change(change.span.shifted(start), change.text)
 
 
 def _pieces_at(snapshot: Snapshot, place: Span) -> range:

@@ -124,7 +124,7 @@ def _qualifications(analysis: Analysis, within: Span) -> Iterator[Action]:
             typed_command = next((one for one in planned if one.span == command.span), None)
             named = {} if typed_command is None else _named(typed_command)
             for name in _unqualified(command.motion):
-                at = Span(name.span.start + further, name.span.end + further)
+                at = name.span.shifted(further)
                 graph = named.get(name.span)
                 if graph is not None and at.start <= within.start and within.end <= at.end:
                     text = f"{script_name(graph)} "

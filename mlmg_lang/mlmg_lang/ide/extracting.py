@@ -43,7 +43,7 @@ def extraction(analysis: Analysis, within: Span) -> Extraction | None:
     for piece, further in pieces_touching(analysis, Span(selected.start, selected.start)):  # a part is in one
         for command in syntax.commands(piece.items):
             for span, part in _parts(command, analysis):
-                if _without_spaces(analysis, Span(span.start + further, span.end + further)) == selected:
+                if _without_spaces(analysis, span.shifted(further)) == selected:
                     first = next(token.span.start for token in piece.tokens if token.type not in ("COMMENT", "NEWLINE"))
                     return _extraction(analysis, part, selected, first + further)
     return None

@@ -50,7 +50,7 @@ def _in_pieces(made: InPieces) -> Iterator[Fold]:
         if sum(token.type == "NEWLINE" for token in piece.tokens) < 2 and start + piece.size < len(made.source.text):
             continue  # Every piece but the last ends with the end of its line.
         for fold in (*_parentheses(piece.tokens), *_laid_out(lay_out(piece.tokens).items)):
-            yield Fold(_moved(fold.span, start - piece.address), fold.kind)
+            yield Fold(fold.span.shifted(start - piece.address), fold.kind)
 
 
 def _laid_out(items: Sequence[Line | Block]) -> Iterator[Fold]:
@@ -95,7 +95,7 @@ def _comments(made: InPieces) -> Iterator[Fold]:
             yield from _run(run)
             run = []
         if token.type == "COMMENT" and alone:
-            run.append(_moved(token.span, moved))
+            run.append(token.span.shifted(moved))
         alone, n_ends = False, 0
     yield from _run(run)
 
@@ -105,10 +105,6 @@ def _placed(made: InPieces) -> Iterator[tuple[Token, int]]:
     for piece, start in zip(made.pieces, made.places.starts, strict=False):
         for token in piece.tokens:
             yield token, start - piece.address
-
-
-def _moved(span: Span, by: int) -> Span:
-    return Span(span.start + by, span.end + by)
 
 
 def _run(comments: Sequence[Span]) -> Iterator[Fold]:

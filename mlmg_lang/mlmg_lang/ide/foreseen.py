@@ -57,7 +57,7 @@ class Remembered:
     def of_piece(self, piece: Statement, command: Span) -> Going | None:
         """Return how the command at a place in a piece was to go; places count from the beginning of that."""
         start = self._starts.get(id(piece))
-        return None if start is None else self.told.going(Span(command.start + start, command.end + start))
+        return None if start is None else self.told.going(command.shifted(start))
 
     @cached_property
     def _starts(self) -> dict[int, int]:
@@ -84,7 +84,7 @@ class _Remembering:
     def going(self, command: Span) -> Going | None:
         """Return how the command at a place was to go."""
         at = max(bisect_right(self.starts, command.start, hi=len(self.pieces)) - 1, 0)
-        own = self.known.of_piece(self.pieces[at], _on(command, -self.starts[at]))
+        own = self.known.of_piece(self.pieces[at], command.shifted(-self.starts[at]))
         return own or self._beside_the_edit(command)
 
     def _beside_the_edit(self, command: Span) -> Going | None:
@@ -93,11 +93,7 @@ class _Remembering:
             return self.known.told.going(command)
         if command.start < self.size - self.tail:
             return None
-        return self.known.told.going(_on(command, len(self.known.text.source.text) - self.size))
-
-
-def _on(span: Span, further: int) -> Span:
-    return Span(span.start + further, span.end + further)
+        return self.known.told.going(command.shifted(len(self.known.text.source.text) - self.size))
 
 
 @dataclass(frozen=True, slots=True)

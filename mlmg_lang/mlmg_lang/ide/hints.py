@@ -109,7 +109,7 @@ def goings(piece: Statement, start: int, outlook: Outlook | None) -> tuple[Going
         return ()
     further = start - piece.address
     spans = (one.span for one in syntax.commands(piece.items))
-    found = tuple([outlook.going(Span(span.start + further, span.end + further)) for span in spans])
+    found = tuple([outlook.going(span.shifted(further)) for span in spans])
     return () if all(one is None for one in found) else found
 
 

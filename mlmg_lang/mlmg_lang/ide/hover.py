@@ -176,7 +176,7 @@ def _word_at(analysis: Analysis, offset: int) -> Hover | None:
     tokens, further = tokens_at(analysis, offset)
     at = bisect_right(tokens, offset - further, key=lambda token: token.span.start)
     for token in reversed(tokens[max(at - 2, 0) : at]):
-        span = Span(token.span.start + further, token.span.end + further)
+        span = token.span.shifted(further)
         if offset <= span.end and token.type in WORDS:
             return Hover(span, (Part(f"{code(token.text)}: {WORDS[token.type]}"),))
     return None

@@ -93,7 +93,7 @@ def _of_all(analysis: Analysis, let: syntax.Let) -> Iterator[Inlining]:
         if text is None:
             return
         at = use.node.span
-        edits.append(Edit(Span(at.start + further, at.end + further), text))
+        edits.append(Edit(at.shifted(further), text))
     removal = Edit(_with_separator(made.source.text, made.now(let.span)), "")
     if not edits or any(_overlap(one, other) for one, other in pairwise(_sorted(edits))):
         return

@@ -74,13 +74,13 @@ def _candidates(piece: Statement, titles: Mapping[Span, str]) -> Iterator[Lens]:
         further = start - line.address
         for command in () if has_errors(line.told) else syntax.commands(line.items):
             if command.span in titles:
-                span = Span(command.span.start + further, command.span.end + further)
+                span = command.span.shifted(further)
                 yield Lens(span, titles[command.span], Deed.CANDIDATES, span)
         start += line.size
 
 
 def _moved(lens: Lens, further: int) -> Lens:
-    span = Span(lens.span.start + further, lens.span.end + further)
+    span = lens.span.shifted(further)
     return replace(lens, span=span, about=span)
 
 

@@ -100,13 +100,13 @@ class Statement:
 
     def at(self, span: Span) -> Span:
         """Return where something of it is."""
-        return Span(span.start + self.further, span.end + self.further)
+        return span.shifted(self.further)
 
 
 def place_of(source: Source, span: Span) -> Place:
     """Return where a span is, counted in its own file."""
     file, base = source.file(span.start)
-    return Place(file.name, Span(span.start - base, span.end - base))
+    return Place(file.name, span.shifted(-base))
 
 
 def occurrence_at(analysis: Analysis, offset: int) -> Occurrence | None:
@@ -300,7 +300,7 @@ class _Reader:
         text = self.statement.source.slice(self.statement.at(item.span))
         for token in tokenize(Source(text)):
             if token.type in NAMES:
-                span = Span(token.span.start + item.span.start, token.span.end + item.span.start)
+                span = token.span.shifted(item.span.start)
                 name = name_from_token(token)
                 yield replace(self._one(replace(name, span=span), self._any(name)), broken=True)
 

@@ -29,7 +29,7 @@ def selection(analysis: Analysis, offset: int) -> tuple[Span, ...]:
     if made.pieces:
         at = made.places.piece_at(offset)
         piece, further = made.pieces[at], made.places.starts[at] - made.pieces[at].address
-        spans |= {Span(one.start + further, one.end + further) for one in _around(piece, offset - further)}
+        spans |= {one.shifted(further) for one in _around(piece, offset - further)}
     ordered = sorted(spans, key=lambda span: (span.end - span.start, span))
     return tuple(_nested(ordered))
 

@@ -194,7 +194,7 @@ def _painted(text: str, piece: Piece | WholeBlock, against: _Meanings) -> Painte
     parameters = _parameters(piece.tokens)
     before = ""
     for token, role in roles(piece.tokens):
-        span = Span(token.span.start - piece.address, token.span.end - piece.address)
+        span = token.span.shifted(-piece.address)
         if token.type == "STRING" and before == "USE":
             marks.append(Mark(span, Kind.STRING))
         elif token.type in NAMES and role is not Role.UNIT:
@@ -250,5 +250,5 @@ def _declared(line: Sequence[Token], first: int) -> dict[str, int]:
 
 
 def _further(mark: Mark, distance: int) -> Mark:
-    span = Span(mark.span.start + distance, mark.span.end + distance)
+    span = mark.span.shifted(distance)
     return Mark(span, mark.kind, mark.declaration, mark.unknown)

@@ -153,10 +153,10 @@ class _Outliner:
         return Symbol(f"branch {number}", weight, Kind.BRANCH, span, span, tuple(self.items(branch.body)))
 
     def _at(self, node: syntax.Node) -> Span:
-        return Span(node.span.start + self.further, node.span.end + self.further)
+        return node.span.shifted(self.further)
 
     def _text(self, node: syntax.Node) -> str:
         at = self._at(node)
-        said = self.source.slice(Span(at.start + self.base, at.end + self.base))
+        said = self.source.slice(at.shifted(self.base))
         line = " ".join(said.split())
         return line if len(line) <= _LONGEST else f"{line[: _LONGEST - 3].rstrip()}..."

@@ -69,7 +69,7 @@ def _scenes(one: Diagnostic, source: Source, styles: tuple[str, ...]) -> list[_S
 def _scene(source: Source, span: Span, styles: tuple[str, ...], sign: str, words: str = "") -> _Scene:
     """Return the scene of one place."""
     file, begin = source.file(span.start)
-    local = Span(span.start - begin, span.end - begin)
+    local = span.shifted(-begin)
     return _Scene(file, begin, [Mark(local, sign, styles, words)])
 
 
