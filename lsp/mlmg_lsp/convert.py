@@ -3,18 +3,16 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from difflib import SequenceMatcher
+from collections.abc import Iterable, Mapping, Sequence
 from functools import cache
-from itertools import pairwise
 from pathlib import Path
 from typing import Final
 
 from lsprotocol import types
 
-from mlmg_lang.common_ends import common_ends
 from mlmg_lang.diagnostics import Diagnostic, Severity
 from mlmg_lang.ide.links import use_leading_to
+from mlmg_lang.line_diff import changed_lines
 from mlmg_lang.rules import page_of, read_rule
 from mlmg_lang.source import Source, Span
 from mlmg_lsp.open_text import Snapshot
@@ -29,8 +27,6 @@ _SEVERITIES: Final = {
 _SIGNS: Final = re.compile(r"\*\*|^```[\w-]*\n|\n```$", re.MULTILINE)
 """Of bold words and stretches of code, as we write them."""
 _UNUSED: Final = "MS054"
-_MOST_COMPARED: Final = 5_000
-"""Of so many lines it is worked out which of them an edit leaves alone; of more, only where it begins and ends."""
 
 
 def range_of(source: Source, span: Span, encoding: Encoding) -> types.Range:
@@ -164,46 +160,9 @@ def _use_of(snapshot: Snapshot, span: Span) -> Span:
 
 def edits_between(source: Source, after: str, encoding: Encoding) -> list[types.TextEdit]:
     """Return the edits that make another text of a script, line by line, so that cursors stay where they are."""
-    return [types.TextEdit(range_of(source, span, encoding), new) for span, new in changed_lines(source, after)]
-
-
-def changed_lines(source: Source, after: str) -> Iterator[tuple[Span, str]]:
-    """Yield the stretches of whole lines that differ between two texts, with what takes the place of each."""
-    starts = (*source.line_starts, len(source.text))
-    old = [source.text[start:end] for start, end in pairwise(starts)]
-    new = [after[start:end] for start, end in pairwise((*Source(after).line_starts, len(after)))]
-    for first, last, begin, end in _differences(old, new):
-        n_alone = _n_alone(old[first:last], new[begin:end])
-        for n in range(n_alone):
-            if old[first + n] != new[begin + n]:
-                yield Span(starts[first + n], starts[first + n + 1]), new[begin + n]
-        if first + n_alone < last or begin + n_alone < end:
-            yield Span(starts[first + n_alone], starts[last]), "".join(new[begin + n_alone : end])
-
-
-def _n_alone(old: Sequence[str], new: Sequence[str]) -> int:
-    """Return how many of the first of some lines become another each: all, or those that are only spaced otherwise."""
-    if len(old) == len(new):
-        return len(old)
-    pairs = zip(old, new, strict=False)
-    return next((n for n, pair in enumerate(pairs) if not _is_respaced(*pair)), min(len(old), len(new)))
-
-
-def _is_respaced(one: str, other: str) -> bool:
-    """Return whether two lines have the same signs but for spaces, and some."""
-    signs = one.split()
-    return bool(signs) and "".join(signs) == "".join(other.split())
-
-
-def _differences(old: Sequence[str], new: Sequence[str]) -> Iterator[tuple[int, int, int, int]]:
-    head, tail = common_ends(old, new)
-    middle, others = old[head : len(old) - tail], new[head : len(new) - tail]
-    if len(middle) + len(others) > _MOST_COMPARED:
-        yield head, len(old) - tail, head, len(new) - tail
-        return
-    for kind, first, last, begin, end in SequenceMatcher(None, middle, others, autojunk=False).get_opcodes():
-        if kind != "equal":
-            yield first + head, last + head, begin + head, end + head
+    return [
+        types.TextEdit(range_of(source, edit.span, encoding), edit.replacement) for edit in changed_lines(source, after)
+    ]
 
 
 def workspace_edit(snapshot: Snapshot, edits: Iterable[types.TextEdit]) -> types.WorkspaceEdit:

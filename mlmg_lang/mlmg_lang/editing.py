@@ -22,22 +22,13 @@ from mlmg_lang.parsing.quotes import requoted
 from mlmg_lang.parsing.tokenize import tokenize
 from mlmg_lang.parsing.tokens import Token
 from mlmg_lang.pieces import Piece, read_in
-from mlmg_lang.source import Source
-
-
-@dataclass(frozen=True, slots=True)
-class Edit:
-    """What was at `start` to `end` has become longer by `further`; all else is the same text."""
-
-    start: int
-    end: int
-    further: int
+from mlmg_lang.source import Edit, Source, Span
 
 
 def edit_between(before: str, after: str) -> Edit:
     """Return the smallest edit that makes one text of another."""
     head, tail = common_ends(before, after)
-    return Edit(head, len(before) - tail, len(after) - len(before))
+    return Edit(Span(head, len(before) - tail), after[head : len(after) - tail])
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,9 +52,9 @@ class Spot:
 def reread(before: InPieces, source: Source, edit: Edit) -> Spot:
     """Return the stretch that an edit touches, with the line before it: what follows could go on with that."""
     lines, starts = before.lines, before.places.line_starts
-    last_whole = before.places.line_at(edit.start) - 1
+    last_whole = before.places.line_at(edit.span.start) - 1
     first = next((at for at in range(last_whole, -1, -1) if lines[at].solid), 0)
-    end = min(starts.last_to(edit.end) + 1, len(lines))
+    end = min(starts.last_to(edit.span.end) + 1, len(lines))
     while True:
         spot = Source(source.text[starts[first] : starts[end] + edit.further], source.name)
         tokens, around = tokenize(spot), braces_before(lines, first)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from bisect import bisect_right
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import accumulate
+from itertools import accumulate, pairwise
 
 
 @dataclass(frozen=True, slots=True, order=True)
@@ -18,6 +18,19 @@ class Span:
     def shifted(self, distance: int) -> Span:
         """Return a stretch as long as this, further on by so much."""
         return Span(self.start + distance, self.end + distance)
+
+
+@dataclass(frozen=True, slots=True)
+class Edit:
+    """A stretch of a text, and what takes its place."""
+
+    span: Span
+    replacement: str
+
+    @property
+    def further(self) -> int:
+        """Return how much longer that makes the text."""
+        return len(self.replacement) - (self.span.end - self.span.start)
 
 
 @dataclass(frozen=True)
@@ -39,6 +52,11 @@ class Source:
         """Return the offset at which each line begins; lines end in LF, CRLF or CR and in nothing else."""
         lines = self.text.replace("\r\n", " \n").replace("\r", "\n").split("\n")
         return tuple(accumulate(map((1).__add__, map(len, lines[:-1])), initial=0))
+
+    @property
+    def lines(self) -> list[str]:
+        """Return the lines with their ends; the last has none, and may be empty."""
+        return [self.text[start:end] for start, end in pairwise((*self.line_starts, len(self.text)))]
 
     @property
     def end(self) -> int:

@@ -11,13 +11,12 @@ from mlmg_lang.common_ends import common_ends
 from mlmg_lang.formatting.by_pieces import forms_of
 from mlmg_lang.formatting.format_script import format_source
 from mlmg_lang.formatting.line_changes import (
-    Change,
     changes_within_lines,
     line_changes,
     line_end_of,
     with_line_ends,
 )
-from mlmg_lang.source import Source, Span
+from mlmg_lang.source import Edit, Source, Span
 from mlmg_lsp.convert import range_of
 from mlmg_lsp.open_text import Snapshot
 
@@ -48,8 +47,8 @@ def on_type_formatting(snapshot: Snapshot, params: types.DocumentOnTypeFormattin
     """
     line = params.position.line - (params.ch == "\n")
     source, encoding = snapshot.analysis.source, snapshot.client.encoding
-    least = (_least(source, one) for one in _made_in(snapshot, _lines(snapshot, line, line)) if one.text)
-    return [types.TextEdit(range_of(source, one.span, encoding), one.text) for one in least if one is not None]
+    least = (_least(source, one) for one in _made_in(snapshot, _lines(snapshot, line, line)) if one.replacement)
+    return [types.TextEdit(range_of(source, one.span, encoding), one.replacement) for one in least if one is not None]
 
 
 def _all(snapshot: Snapshot) -> Span:
@@ -66,10 +65,10 @@ def _lines(snapshot: Snapshot, first: int, last: int) -> Span:
 
 def _edits(snapshot: Snapshot, place: Span) -> list[types.TextEdit]:
     source, encoding = snapshot.analysis.source, snapshot.client.encoding
-    return [types.TextEdit(range_of(source, one.span, encoding), one.text) for one in _made_in(snapshot, place)]
+    return [types.TextEdit(range_of(source, one.span, encoding), one.replacement) for one in _made_in(snapshot, place)]
 
 
-def _made_in(snapshot: Snapshot, place: Span) -> Iterator[Change]:
+def _made_in(snapshot: Snapshot, place: Span) -> Iterator[Edit]:
     """Yield what changes in some lines; of what would change others too, only what can be made in these alone."""
     for change in _changes(snapshot, place):
         if _is_in(change, place):
@@ -79,13 +78,13 @@ def _made_in(snapshot: Snapshot, place: Span) -> Iterator[Change]:
             yield from (one for one in parts if _is_in(one, place))
 
 
-def _is_in(change: Change, place: Span) -> bool:
+def _is_in(change: Edit, place: Span) -> bool:
     return place.start <= change.span.start and change.span.end <= place.end
 
 
-def _least(source: Source, change: Change) -> Change | None:
+def _least(source: Source, change: Edit) -> Edit | None:
     """Return a change without what stays as it is at its ends, so that cursors stay; None if nothing is left."""
-    before, after = source.slice(change.span), change.text
+    before, after = source.slice(change.span), change.replacement
     if change.span.end == len(source.text) and before[-1:] not in ("\r", "\n"):
         after = after.rstrip("\r\n")
     head, tail = common_ends(before, after)
@@ -93,10 +92,10 @@ def _least(source: Source, change: Change) -> Change | None:
         tail -= 1  # no cursor stands there
     if head == len(before) == len(after):
         return None
-    return Change(Span(change.span.start + head, change.span.end - tail), after[head : len(after) - tail])
+    return Edit(Span(change.span.start + head, change.span.end - tail), after[head : len(after) - tail])
 
 
-def _changes(snapshot: Snapshot, place: Span) -> Iterator[Change]:
+def _changes(snapshot: Snapshot, place: Span) -> Iterator[Edit]:
     """Yield what changes in some lines, piece by piece where each can be written by itself; there may be more."""
     forms = forms_of(snapshot.analysis, snapshot.kept.get("forms"))
     snapshot.kept["forms"] = forms
@@ -108,7 +107,7 @@ def _changes(snapshot: Snapshot, place: Span) -> Iterator[Change]:
     for number in _pieces_at(snapshot, place):
         start = starts[number]
         for change in forms.changes(number):
-            yield Change(change.span.shifted(start), change.text)
+            yield Edit(change.span.shifted(start), change.replacement)
 
 
 def _pieces_at(snapshot: Snapshot, place: Span) -> range:

@@ -116,7 +116,7 @@ def rename_to(snapshot: Snapshot, params: types.RenameParams, users: Users) -> t
             )
     return workspace_edits(
         snapshot,
-        {file: [edit_in(snapshot, file, one.span, one.text) for one in edits] for file, edits in found.items()},
+        {file: [edit_in(snapshot, file, one.span, one.replacement) for one in edits] for file, edits in found.items()},
     )
 
 

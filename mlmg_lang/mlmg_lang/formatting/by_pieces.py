@@ -13,7 +13,7 @@ from enum import Enum
 from mlmg_lang.analysis import Analysis
 from mlmg_lang.blocks import Statement, WholeBlock
 from mlmg_lang.diagnostics import has_errors
-from mlmg_lang.formatting.line_changes import Change, line_changes, line_end_of, with_line_ends
+from mlmg_lang.formatting.line_changes import line_changes, line_end_of, with_line_ends
 from mlmg_lang.formatting.pieces import statements
 from mlmg_lang.formatting.printing import Printer
 from mlmg_lang.formatting.reading import read_lines
@@ -21,7 +21,7 @@ from mlmg_lang.formatting.words import Words, words_of
 from mlmg_lang.parsing.layout import lay_out
 from mlmg_lang.parsing.lookalikes import has_other_comments
 from mlmg_lang.parsing.tokenize import tokenize
-from mlmg_lang.source import Source
+from mlmg_lang.source import Edit, Source
 
 _NO_WORDS = Words(frozenset(), False)
 _MOST_KEPT = 4
@@ -58,9 +58,9 @@ class Forms:
     _words: Words
     _line_end: str
     _sound: dict[tuple[str, ...], bool] = field(default_factory=dict)
-    _changes: dict[tuple[str, bool], Sequence[Change]] = field(default_factory=dict)
+    _changes: dict[tuple[str, bool], Sequence[Edit]] = field(default_factory=dict)
 
-    def changes(self, number: int) -> Sequence[Change]:
+    def changes(self, number: int) -> Sequence[Edit]:
         """Return what makes a piece into its canonical form; places are counted from its beginning."""
         text, starts = self._texts
         is_first = number == 0  # there is no empty line before it, then
@@ -69,7 +69,7 @@ class Forms:
             self._changes[known] = self._found(*known)
         return self._changes[known]
 
-    def _found(self, text: str, is_first: bool) -> Sequence[Change]:
+    def _found(self, text: str, is_first: bool) -> Sequence[Edit]:
         source = Source(text)
         tokens = tokenize(source)
         layout, strays = read_lines(tokens)

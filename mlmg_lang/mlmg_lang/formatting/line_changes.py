@@ -1,4 +1,4 @@
-"""A text and the same in canonical form -> the stretches of whole lines that differ, each as small as can be.
+"""A text and the same in canonical form -> the edits of whole lines between them, each as small as can be.
 
 Formatting leaves the words of a text in their order, and tokens lie within lines. So both texts are read side by side,
 and cut where both have a line end and the same words and comments before it: each stretch can then take its new form
@@ -9,25 +9,17 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
-from itertools import groupby, pairwise
+from itertools import groupby
 from typing import Final
 
 from mlmg_lang.parsing.tokenize import tokenize
 from mlmg_lang.parsing.tokens import NAMES, NUMBERS, Token
-from mlmg_lang.source import Source, Span
+from mlmg_lang.source import Edit, Source, Span
 
 _NO_WORDS: Final = frozenset({"NEWLINE", "SEMICOLON", "COMMENT"})
 
 
-@dataclass(frozen=True, slots=True)
-class Change:
-    """A stretch of a text, and what is to take its place."""
-
-    span: Span
-    text: str
-
-
-def line_changes(before: Source, after: str) -> list[Change]:
+def line_changes(before: Source, after: str) -> list[Edit]:
     """Return what makes a text into its canonical form, in order; each change can be made by itself.
 
     Parameters
@@ -38,31 +30,31 @@ def line_changes(before: Source, after: str) -> list[Change]:
         return []
     found = []
     start = begin = 0
-    for end, stop in _cuts(_lines(before), _lines(Source(after))):
+    for end, stop in _cuts(before.lines, Source(after).lines):
         if before.text[start:end] != after[begin:stop]:
-            found.append(Change(Span(start, end), after[begin:stop]))
+            found.append(Edit(Span(start, end), after[begin:stop]))
         start, begin = end, stop
     return found
 
 
-def changes_within_lines(before: Source, change: Change) -> list[Change]:
+def changes_within_lines(before: Source, change: Edit) -> list[Edit]:
     """Return what of a change leaves lines and their indentation as they are: words, and the spaces between them.
 
     That can be made line by line where the change as a whole joins lines.
     """
     text = before.slice(change.span)
-    old, new = tokenize(Source(text)), [token for token in tokenize(Source(change.text)) if _is_word(token)]
+    old, new = tokenize(Source(text)), [token for token in tokenize(Source(change.replacement)) if _is_word(token)]
     if [_kind(token) for token in old if _is_word(token)] != [_kind(token) for token in new]:
         return []
     spans = iter([token.span for token in new])
     found = []
     for words in _words_by_line(old):
         places = [next(spans) for _ in words]
-        written = change.text[places[0].start : places[-1].end]
+        written = change.replacement[places[0].start : places[-1].end]
         if len(Source(written).line_starts) == 1:
             start = change.span.start
-            found.append(Change(Span(start + words[0].span.start, start + words[-1].span.end), written))
-    return [one for one in found if before.slice(one.span) != one.text]
+            found.append(Edit(Span(start + words[0].span.start, start + words[-1].span.end), written))
+    return [one for one in found if before.slice(one.span) != one.replacement]
 
 
 def line_end_of(source: Source) -> str:
@@ -77,10 +69,6 @@ def with_line_ends(text: str, line_end: str) -> str:
 
 
 # --- stretches ---
-
-
-def _lines(source: Source) -> list[str]:
-    return [source.text[start:end] for start, end in pairwise((*source.line_starts, len(source.text)))]
 
 
 def _cuts(old: Sequence[str], new: Sequence[str]) -> Iterator[tuple[int, int]]:

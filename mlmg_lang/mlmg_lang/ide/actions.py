@@ -15,15 +15,12 @@ from mlmg_lang.analysis import Analysis
 from mlmg_lang.diagnostics import Diagnostic, Severity
 from mlmg_lang.ide.extracting import extraction
 from mlmg_lang.ide.inlining import inlinings
-from mlmg_lang.ide.rewriting import Edit
 from mlmg_lang.ide.touching import pieces_touching, tokens_at
 from mlmg_lang.parsing import syntax
 from mlmg_lang.parsing.lexical import script_name
 from mlmg_lang.parsing.structure import is_sub
 from mlmg_lang.planning import typed
-from mlmg_lang.source import Source, Span
-
-__all__ = ["Action", "Edit", "Kind", "actions"]
+from mlmg_lang.source import Edit, Source, Span
 
 
 class Kind(StrEnum):

@@ -9,12 +9,11 @@ from itertools import count, takewhile
 from typing import Final
 
 from mlmg_lang.analysis import Analysis
-from mlmg_lang.ide.rewriting import Edit, lasting
 from mlmg_lang.ide.touching import pieces_touching
 from mlmg_lang.parsing import syntax
 from mlmg_lang.parsing.structure import group_of, is_sub
-from mlmg_lang.source import Source, Span
-from mlmg_lang.spelling import folded
+from mlmg_lang.source import Edit, Source, Span
+from mlmg_lang.spelling import folded, normal
 
 _NAME = "PART"
 _INDENTATION: Final = re.compile(r"[ \t]*")
@@ -60,7 +59,7 @@ def _extraction(
 ) -> Extraction | None:
     is_whole = isinstance(part, syntax.Command)
     has_sub = any(isinstance(node, syntax.Name) and is_sub(node) for node in syntax.walk(part))
-    if (has_sub and not is_whole) or lasting(part, analysis):
+    if (has_sub and not is_whole) or _lasts(part, analysis):
         return None  # `Sub` depends on what stands before it, and what lasts is a whole statement.
     text = analysis.source.text
     name = _fresh(analysis)
@@ -140,3 +139,10 @@ def _fresh(analysis: Analysis) -> str:
         if folded(name) not in taken and not known:
             return name
     raise AssertionError("there is no end of names")
+
+
+def _lasts(node: syntax.Node, analysis: Analysis) -> bool:
+    """Return whether a definition is used in a node that says itself how long it lasts."""
+    signatures = analysis.made.gathered.definitions.signatures
+    used = (part for part in syntax.walk(node) if isinstance(part, syntax.Reference | syntax.Call))
+    return any((known := signatures.get(normal(part.name.text))) is not None and known.lasts for part in used)

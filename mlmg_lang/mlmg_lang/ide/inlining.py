@@ -11,10 +11,9 @@ from typing import Final
 
 from mlmg_lang.analysis import Analysis, InPieces
 from mlmg_lang.diagnostics import has_errors
-from mlmg_lang.ide.rewriting import Edit
 from mlmg_lang.ide.touching import pieces_touching
 from mlmg_lang.parsing import syntax
-from mlmg_lang.source import Span
+from mlmg_lang.source import Edit, Span
 from mlmg_lang.spelling import normal
 
 _BEHIND: Final = re.compile(r"[ \t]*(?P<parts>;)?[ \t]*(?P<ends>#|\r\n|[\r\n]|\Z)?")

@@ -19,7 +19,7 @@ from mlmg_lang.parsing.lexical import check_tokens, script_name
 from mlmg_lang.parsing.structure import SUB
 from mlmg_lang.parsing.tokenize import tokenize
 from mlmg_lang.parsing.tokens import NAMES, Token
-from mlmg_lang.source import Source, Span
+from mlmg_lang.source import Edit, Source, Span
 from mlmg_lang.spelling import normal
 
 
@@ -36,14 +36,6 @@ class Renameable:
 
     span: Span
     name: str
-
-
-@dataclass(frozen=True, slots=True)
-class Edit:
-    """A stretch of a file, and what takes its place; offsets count from the beginning of the file."""
-
-    span: Span
-    text: str
 
 
 def prepare_rename(analysis: Analysis, offset: int) -> Renameable | Refusal:

@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 from hypothesis.strategies import SearchStrategy
 
 from mlmg_lang.formatting.format_script import format_source
-from mlmg_lang.formatting.line_changes import Change, changes_within_lines, line_changes, line_end_of, with_line_ends
-from mlmg_lang.source import Source
+from mlmg_lang.formatting.line_changes import changes_within_lines, line_changes, line_end_of, with_line_ends
+from mlmg_lang.source import Edit, Source
 
 PIECES = [
     *("WALK", "with", "for", "3 s", "2:", "repeat 2 {", "choose {", "{", "}", "}", "(", ")", "|", ";", ",", "05"),
@@ -21,14 +21,14 @@ PIECES = [
 CALM = settings(max_examples=100)
 
 
-def changes_of(text: str) -> list[Change]:
+def changes_of(text: str) -> list[Edit]:
     source = Source(text)
     return line_changes(source, with_line_ends(format_source(source), line_end_of(source)))
 
 
-def changed(text: str, changes: Iterable[Change]) -> str:
+def changed(text: str, changes: Iterable[Edit]) -> str:
     for one in sorted(changes, key=lambda one: one.span, reverse=True):
-        text = text[: one.span.start] + one.text + text[one.span.end :]
+        text = text[: one.span.start] + one.replacement + text[one.span.end :]
     return text
 
 
@@ -53,7 +53,7 @@ def changed(text: str, changes: Iterable[Change]) -> str:
     ],
 )
 def test_each_line_changes_by_itself_where_that_can_be(text: str, expected: list[str]) -> None:
-    assert [one.text for one in changes_of(text)] == expected
+    assert [one.replacement for one in changes_of(text)] == expected
 
 
 @pytest.mark.parametrize(
@@ -67,7 +67,7 @@ def test_each_line_changes_by_itself_where_that_can_be(text: str, expected: list
 )
 def test_within_lines_words_change_and_the_spaces_between_them(text: str, expected: list[str]) -> None:
     found = [changes_within_lines(Source(text), one) for one in changes_of(text)]
-    assert [part.text for parts in found for part in parts] == expected
+    assert [part.replacement for parts in found for part in parts] == expected
 
 
 @CALM

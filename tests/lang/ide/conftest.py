@@ -12,11 +12,10 @@ from mlmg_lang.ide.completion import Surroundings, complete
 from mlmg_lang.ide.cursor import cursor_at
 from mlmg_lang.ide.occurrences import Place
 from mlmg_lang.ide.offers import Completion, Offers
-from mlmg_lang.ide.rename import Edit
 from mlmg_lang.parsing.tokenize import tokenize
 from mlmg_lang.planning import flow
 from mlmg_lang.planning.names import Names
-from mlmg_lang.source import Source
+from mlmg_lang.source import Edit, Source
 
 
 @dataclass(frozen=True)
@@ -98,7 +97,7 @@ def edited() -> Callable[..., str]:
 
     def ask(text: str, edits: Iterable[Edit]) -> str:
         for edit in sorted(edits, key=lambda edit: edit.span, reverse=True):
-            text = text[: edit.span.start] + edit.text + text[edit.span.end :]
+            text = text[: edit.span.start] + edit.replacement + text[edit.span.end :]
         return text
 
     return ask
