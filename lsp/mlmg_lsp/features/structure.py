@@ -21,7 +21,7 @@ def folding_range(snapshot: Snapshot, _params: types.FoldingRangeParams) -> list
         types.FoldingRange(
             position_from_offset(source, one.span.start, encoding).line,
             position_from_offset(source, one.span.end, encoding).line,
-            kind=comment if one.kind is folding.Kind.COMMENT else None,
+            kind=comment if one.is_comment else None,
         )
         for one in folding.folds(snapshot.analysis)
     ]

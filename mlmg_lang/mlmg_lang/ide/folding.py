@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from enum import StrEnum
 
 from mlmg_lang.analysis import Analysis, InPieces
 from mlmg_lang.parsing.layout import Block, Line, lay_out
@@ -12,22 +11,12 @@ from mlmg_lang.parsing.tokens import ENDS_PARENTHESES, Token
 from mlmg_lang.source import Span
 
 
-class Kind(StrEnum):
-    """What is folded away."""
-
-    BLOCK = "block"
-    BRANCH = "branch"
-    PARENTHESES = "parentheses"
-    COMMENT = "comment"
-    COMMAND = "command"
-
-
 @dataclass(frozen=True, slots=True)
 class Fold:
     """What can be folded away: the rest of the first line of a span, and the lines up to its end."""
 
     span: Span
-    kind: Kind
+    is_comment: bool = False
 
 
 def folds(analysis: Analysis) -> tuple[Fold, ...]:
@@ -50,19 +39,19 @@ def _in_pieces(made: InPieces) -> Iterator[Fold]:
         if sum(token.type == "NEWLINE" for token in piece.tokens) < 2 and start + piece.size < len(made.source.text):
             continue  # Every piece but the last ends with the end of its line.
         for fold in (*_parentheses(piece.tokens), *_laid_out(lay_out(piece.tokens).items)):
-            yield Fold(fold.span.shifted(start - piece.address), fold.kind)
+            yield Fold(fold.span.shifted(start - piece.address), fold.is_comment)
 
 
 def _laid_out(items: Sequence[Line | Block]) -> Iterator[Fold]:
     """Yield blocks, their branches if there are several, and the statements that go on over lines."""
     for item in items:
         if isinstance(item, Line):
-            yield Fold(_across(item), Kind.COMMAND)
+            yield Fold(_across(item))
             continue
-        yield Fold(item.span, Kind.BLOCK)
+        yield Fold(item.span)
         for branch in item.branches:
             if branch and len(item.branches) > 1:
-                yield Fold(Span(_across(branch[0]).start, _across(branch[-1]).end), Kind.BRANCH)
+                yield Fold(Span(_across(branch[0]).start, _across(branch[-1]).end))
             yield from _laid_out(branch)
 
 
@@ -80,7 +69,7 @@ def _parentheses(tokens: Sequence[Token]) -> Iterator[Fold]:
         elif token.type == "LEFT":
             opened.append(token.span.start)
         elif token.type == "RIGHT" and opened:
-            yield Fold(Span(opened.pop(), token.span.end), Kind.PARENTHESES)
+            yield Fold(Span(opened.pop(), token.span.end))
 
 
 def _comments(made: InPieces) -> Iterator[Fold]:
@@ -109,4 +98,4 @@ def _placed(made: InPieces) -> Iterator[tuple[Token, int]]:
 
 def _run(comments: Sequence[Span]) -> Iterator[Fold]:
     if len(comments) > 1:
-        yield Fold(Span(comments[0].start, comments[-1].end), Kind.COMMENT)
+        yield Fold(Span(comments[0].start, comments[-1].end), is_comment=True)

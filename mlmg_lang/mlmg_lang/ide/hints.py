@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from enum import StrEnum
 from typing import Protocol
 
@@ -11,7 +11,6 @@ from mlmg_lang.analysis import Analysis
 from mlmg_lang.blocks import Statement
 from mlmg_lang.catalog import Catalog
 from mlmg_lang.definitions.gather import Definitions
-from mlmg_lang.ide.touching import pieces_touching
 from mlmg_lang.parsing import syntax
 from mlmg_lang.parsing.amounts import UNITS, seconds_from_quantity, spelled, unit_of
 from mlmg_lang.source import Span
@@ -69,25 +68,6 @@ class Outlook(Protocol):
 
     def going(self, command: Span) -> Going | None:
         """Return how the command at a place goes, if that is known; of several times, the first."""
-
-
-def hints(
-    analysis: Analysis, within: Span, outlook: Outlook | None = None, kinds: Collection[Kind] = ALL
-) -> tuple[Hint, ...]:
-    """Return the hints in a stretch of a script, in the order of the text; nothing for what is broken.
-
-    Parameters
-    ----------
-    outlook : how commands go; without it, nothing is said of that.
-    """
-    found: list[Hint] = []
-    for piece, further in pieces_touching(analysis, within):
-        start = piece.address + further
-        going = goings(piece, start, outlook)
-        text = analysis.source.text[start : start + piece.size]
-        own = piece_hints(piece, text, Meanings.of(analysis), going, kinds)
-        found += (replace(hint, offset=hint.offset + start) for hint in own)
-    return tuple(hint for hint in found if within.start <= hint.offset <= within.end)
 
 
 @dataclass(frozen=True, slots=True)

@@ -51,13 +51,12 @@ class Mark:
 
     Attributes
     ----------
-    declaration : whether it is defined here. unknown : whether it is a name that means nothing.
+    declaration : whether it is defined here.
     """
 
     span: Span
     kind: Kind
     declaration: bool = False
-    unknown: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -104,8 +103,7 @@ def paint(analysis: Analysis, previous: Painting | None = None) -> Painting:
     previous : of an earlier text of the same script, if there is one: what an edit has left alone is taken from it.
     """
     made = analysis.made
-    defined = made.gathered.definitions
-    against = _Meanings(analysis.question.names, frozenset(defined.lets), defined.complete)
+    against = _Meanings(analysis.question.names, frozenset(made.gathered.definitions.lets))
     if previous is not None and previous._against == against:
         against = previous._against
     kept = _kept(previous, against)
@@ -124,38 +122,32 @@ class _Meanings:
 
     names: Names | None
     lets: frozenset[str]
-    complete: bool
-    _known: dict[tuple[str, bool, Role], tuple[Kind, bool]] = field(default_factory=dict, compare=False)
+    _known: dict[tuple[str, bool, Role], Kind] = field(default_factory=dict, compare=False)
 
-    def of(self, name: Name, role: Role) -> tuple[Kind, bool]:
-        """Return what a name is, and whether it is unknown."""
+    def of(self, name: Name, role: Role) -> Kind:
+        """Return what a name is."""
         key = (name.text, name.quoted, role)
         if key not in self._known:
             self._known[key] = self._of(name, role)
         return self._known[key]
 
-    def _of(self, name: Name, role: Role) -> tuple[Kind, bool]:
+    def _of(self, name: Name, role: Role) -> Kind:
         if role is not Role.GRAPH and normal(name.text) in self.lets:
-            return Kind.DEFINITION, False
+            return Kind.DEFINITION
         if self.names is None:
-            return _UNREAD.get(role, Kind.NAME), False
+            return _UNREAD.get(role, Kind.NAME)
         if role in _UNREAD:
-            return self._before_others(name, role, self.names)
-        return self._of_motions(name.text, self.names)
+            return Kind.GRAPH if is_sub(name) or self.names.graph(name.text) is not None else _UNREAD[role]
+        return _of_motions(name.text, self.names)
 
-    def _before_others(self, name: Name, role: Role, names: Names) -> tuple[Kind, bool]:
-        """Return what a name is that stands before a name or a parenthesis."""
-        if is_sub(name) or names.graph(name.text) is not None:
-            return Kind.GRAPH, False
-        return _UNREAD[role], self.complete
 
-    def _of_motions(self, name: str, names: Names) -> tuple[Kind, bool]:
-        """Return what a name is that stands for motions; a graph's cannot, but is known."""
-        matches = (names.find_unqualified(graph, name) for graph in names.graphs)
-        match = next((one for one in matches if one is not None), None)
-        if match is not None:
-            return (Kind.MOTION if match.entry.kind is LibraryKind.MOTION else Kind.TAG), False
-        return (Kind.GRAPH, False) if names.graph(name) is not None else (Kind.NAME, self.complete)
+def _of_motions(name: str, names: Names) -> Kind:
+    """Return what a name is that stands for motions; a graph's cannot, but is known."""
+    matches = (names.find_unqualified(graph, name) for graph in names.graphs)
+    match = next((one for one in matches if one is not None), None)
+    if match is not None:
+        return Kind.MOTION if match.entry.kind is LibraryKind.MOTION else Kind.TAG
+    return Kind.GRAPH if names.graph(name) is not None else Kind.NAME
 
 
 _UNREAD: Final[Mapping[Role, Kind]] = MappingProxyType({Role.GRAPH: Kind.GRAPH, Role.CALL: Kind.DEFINITION})
@@ -182,7 +174,7 @@ def _kept(previous: Painting | None, against: _Meanings) -> dict[str, Painted]:
     if previous is None:
         return {}
     before = previous._against
-    if before.names is not against.names or before.complete != against.complete:
+    if before.names is not against.names:
         return {}
     changed = before.lets ^ against.lets
     return {part.text: part for part in previous.parts if changed.isdisjoint(part.names)}
@@ -216,8 +208,7 @@ def _named(name: Name, role: Role, span: Span, parameters: Mapping[str, int], ag
     if role is Role.PARAMETER or (role is not Role.GRAPH and normal(name.text) in parameters):
         at = parameters.get(normal(name.text))
         return Mark(span, Kind.PARAMETER, declaration=at == span.start)
-    kind, unknown = against.of(name, Role.NAME if role is Role.QUOTED else role)
-    return Mark(span, kind, unknown=unknown)
+    return Mark(span, against.of(name, Role.NAME if role is Role.QUOTED else role))
 
 
 def _parameters(tokens: Sequence[Token]) -> dict[int, Mapping[str, int]]:
@@ -250,5 +241,4 @@ def _declared(line: Sequence[Token], first: int) -> dict[str, int]:
 
 
 def _further(mark: Mark, distance: int) -> Mark:
-    span = mark.span.shifted(distance)
-    return Mark(span, mark.kind, mark.declaration, mark.unknown)
+    return Mark(mark.span.shifted(distance), mark.kind, mark.declaration)

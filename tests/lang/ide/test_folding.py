@@ -11,11 +11,11 @@ from mlmg_lang.source import Source, Span
 TEXTS = st.text(alphabet='repeat 2choose{}|()#WALKwith\n;"\r', max_size=80)
 
 
-def folded(text: str) -> list[tuple[int, int, str]]:
-    """Return first line, last line and kind of each fold."""
+def folded(text: str) -> list[tuple[int, int, bool]]:
+    """Return first and last line of each fold, and whether it is comments."""
     source = Source(text)
-    places = [(source.location(fold.span), fold.kind) for fold in folds(analyse(source))]
-    return [(first, last, kind.value) for (first, _, last, _), kind in places]
+    places = [(source.location(fold.span), fold.is_comment) for fold in folds(analyse(source))]
+    return [(first, last, is_comment) for (first, _, last, _), is_comment in places]
 
 
 @pytest.mark.parametrize(
@@ -23,21 +23,21 @@ def folded(text: str) -> list[tuple[int, int, str]]:
     [
         ("WALK\nIDLE", []),
         ("repeat 2 { IDLE }", []),
-        ("repeat 2 {\nIDLE\n}\n", [(1, 3, "block")]),
-        ("repeat 2 {\nrepeat 3 {\nIDLE\n}\n}", [(1, 5, "block"), (2, 4, "block")]),
-        ("choose {\nIDLE\nWALK\n| TALK\n}", [(1, 5, "block"), (2, 3, "branch")]),
-        ("IDLE\nWALK\n  with Upper-Body TALK\n  for 2 sec\n", [(2, 4, "command")]),
-        ("let G = (\nWALK\nor (IDLE or\nTALK)\n)", [(1, 5, "command"), (3, 4, "parentheses")]),
-        ("# a\n# b\n# c\nWALK", [(1, 3, "comment")]),
+        ("repeat 2 {\nIDLE\n}\n", [(1, 3, False)]),
+        ("repeat 2 {\nrepeat 3 {\nIDLE\n}\n}", [(1, 5, False), (2, 4, False)]),
+        ("choose {\nIDLE\nWALK\n| TALK\n}", [(1, 5, False), (2, 3, False)]),
+        ("IDLE\nWALK\n  with Upper-Body TALK\n  for 2 sec\n", [(2, 4, False)]),
+        ("let G = (\nWALK\nor (IDLE or\nTALK)\n)", [(1, 5, False), (3, 4, False)]),
+        ("# a\n# b\n# c\nWALK", [(1, 3, True)]),
         ("# a\n\n# b\nWALK", []),
         ("WALK # a\n# b", []),
-        ("WALK # a\n# b\n# c", [(2, 3, "comment")]),
-        ("repeat 2 {\n  # a\n  # b\n  IDLE", [(1, 4, "block"), (2, 3, "comment")]),
+        ("WALK # a\n# b\n# c", [(2, 3, True)]),
+        ("repeat 2 {\n  # a\n  # b\n  IDLE", [(1, 4, False), (2, 3, True)]),
         ("(\nWALK", []),
-        ("# a\r\n# b\r\n", [(1, 2, "comment")]),
+        ("# a\r\n# b\r\n", [(1, 2, True)]),
     ],
 )
-def test_blocks_parentheses_comments_and_long_commands_fold(text: str, expected: list[tuple[int, int, str]]) -> None:
+def test_blocks_parentheses_comments_and_long_commands_fold(text: str, expected: list[tuple[int, int, bool]]) -> None:
     assert folded(text) == expected
 
 

@@ -1,14 +1,15 @@
 """Small words between those of a script: `ide.hints`."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from mlmg_lang.catalog import Catalog
-from mlmg_lang.front_end import analyse, analyse_again
-from mlmg_lang.ide.hints import ALL, Going, Kind, Outlook, hints
+from mlmg_lang.front_end import Analysis, analyse, analyse_again
+from mlmg_lang.ide.hints import ALL, Going, Hint, Kind, Meanings, Outlook, goings, piece_hints
+from mlmg_lang.ide.touching import pieces_touching
 from mlmg_lang.source import Source, Span
 
 TEXTS = st.text(alphabet="let G(x)=for 2ms cycles\n;{}with", max_size=80)
@@ -23,6 +24,17 @@ class Said:
 
     def going(self, command: Span) -> Going | None:
         return self.goings.get(command.start)
+
+
+def hints(analysis: Analysis, within: Span, outlook: Outlook | None = None, kinds: frozenset[Kind] = ALL) -> list[Hint]:
+    """Return the hints in a stretch of a script, put together of those of its pieces."""
+    found: list[Hint] = []
+    for piece, further in pieces_touching(analysis, within):
+        start = piece.address + further
+        text = analysis.source.text[start : start + piece.size]
+        own = piece_hints(piece, text, Meanings.of(analysis), goings(piece, start, outlook), kinds)
+        found += (replace(hint, offset=hint.offset + start) for hint in own)
+    return [hint for hint in found if within.start <= hint.offset <= within.end]
 
 
 def hinted(text: str, library: Catalog | None, outlook: Outlook | None = None, kinds: frozenset[Kind] = ALL) -> str:
@@ -98,4 +110,4 @@ def test_those_in_a_stretch_after_an_edit_are_those_of_the_text_afresh(
     edited = analyse_again(analyse(Source(f"{before}\n{after}")), Source(f"{before}\n{new}\n{after}"))
     text, within = edited.source.text, Span(min(one, other), max(one, other))
     everywhere = hints(analyse(edited.source), Span(0, len(text)))
-    assert hints(edited, within) == tuple(hint for hint in everywhere if within.start <= hint.offset <= within.end)
+    assert hints(edited, within) == [hint for hint in everywhere if within.start <= hint.offset <= within.end]

@@ -15,9 +15,9 @@ TEXTS = st.text(alphabet='let WALK(x)=x\nfor{}|;:"\\#1. sec走 with Sub ', max_s
 
 
 def marked(text: str, library: Catalog | None) -> list[str]:
-    """Return each marked stretch with what it is; `+` where it is declared, `?` where it means nothing."""
+    """Return each marked stretch with what it is; `+` where it is declared."""
     return [
-        f"{text[mark.span.start : mark.span.end]} {mark.kind}{'+' * mark.declaration}{'?' * mark.unknown}"
+        f"{text[mark.span.start : mark.span.end]} {mark.kind}{'+' * mark.declaration}"
         for mark in paint(analyse(Source(text), library)).marks()
     ]
 
@@ -29,14 +29,14 @@ def marked(text: str, library: Catalog | None) -> list[str]:
         ("Walk_01", ["Walk_01 motion"]),
         ("walk01", ["walk01 motion"]),
         ('"Walk_01"', ['"Walk_01" motion']),
-        ("WLAK", ["WLAK name?"]),
+        ("WLAK", ["WLAK name"]),
         ("Upper-Body", ["Upper-Body graph"]),
         ("Upper-Body TALK", ["Upper-Body graph", "TALK tag"]),
         ("WALK with Sub TALK", ["WALK tag", "with keyword", "Sub graph", "TALK tag"]),
-        ("Lower-Body TALK", ["Lower-Body graph?", "TALK tag"]),
+        ("Lower-Body TALK", ["Lower-Body graph", "TALK tag"]),
         ("Upper-Body (TALK)", ["Upper-Body graph", "TALK tag"]),
         ("WALK for 10sec # so", ["WALK tag", "for keyword", "10 number", "sec unit", "# so comment"]),
-        ("sec", ["sec name?"]),
+        ("sec", ["sec name"]),
         ("end Upper-Body", ["end keyword", "Upper-Body graph"]),
         ("repeat 2 { IDLE }", ["repeat keyword", "2 number", "IDLE tag"]),
         ('use "a.ms"\nWLAK', ["use keyword", '"a.ms" string', "WLAK name"]),
@@ -48,7 +48,7 @@ def marked(text: str, library: Catalog | None) -> list[str]:
             [
                 *("let keyword", "G definition+", "x parameter+", "t parameter+", "2 number", "sec unit"),
                 *("x parameter", "with keyword", "Upper-Body graph", "WAVE_HAND tag", "for keyword", "t parameter"),
-                *("G definition", "WALK tag", "t parameter", "1 number", "sec unit", "x name?"),
+                *("G definition", "WALK tag", "t parameter", "1 number", "sec unit", "x name"),
             ],
         ),
         ("let G(x, ) = x with", ["let keyword", "G definition+", "x parameter+", "x parameter", "with keyword"]),
@@ -61,10 +61,6 @@ def test_a_name_is_marked_for_what_it_means(text: str, expected: list[str], refe
 def test_without_a_library_names_are_marked_for_their_place_alone() -> None:
     expected = ["Hand graph", "WAVE name", "and keyword", "F definition", "x name"]
     assert marked("Hand WAVE and F(x)", None) == expected
-
-
-def test_an_unknown_name_is_not_held_against_a_script_whose_files_are_missing(reference: Catalog) -> None:
-    assert "F definition" in marked('use "gone.ms"\nF(WALK)', reference)
 
 
 @given(TEXTS)
@@ -106,6 +102,6 @@ def test_lines_that_an_edit_leaves_alone_are_not_looked_at_again(reference: Cata
 def test_another_library_means_another_painting(libraries: Mapping[str, Catalog | None]) -> None:
     text = Source("Left-Hand WAVE")
     painting = paint(analyse(text, libraries["reference"]))
-    assert [mark.unknown for mark in painting.marks()] == [True, True]
+    assert [mark.kind for mark in painting.marks()] == ["graph", "name"]
     again = paint(analyse(text, libraries["left-hand"]), painting)
-    assert [mark.unknown for mark in again.marks()] == [False, False]
+    assert [mark.kind for mark in again.marks()] == ["graph", "tag"]
