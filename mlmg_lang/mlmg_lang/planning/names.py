@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 from functools import cached_property
@@ -168,9 +168,15 @@ class Names:
             if match is not None:
                 yield from (entry.name for entry in (match.entry, *match.others))
 
-    def written_apart(self, words: Iterable[str]) -> tuple[str, ...]:
+    def written_apart(self, words: Sequence[str]) -> tuple[str, ...]:
         """Return the graphs, tags and motions that some words in a row are, however these are joined in them."""
+        if len(words) > self._most_letters:  # each word has one at least
+            return ()
         return self._without_spaces.get("".join(map(_without_spaces, words)), ())
+
+    @cached_property
+    def _most_letters(self) -> int:
+        return max(map(len, self._without_spaces), default=0)
 
     @cached_property
     def _without_spaces(self) -> Mapping[str, tuple[str, ...]]:
