@@ -168,8 +168,10 @@ def _summed_up(statement: Statement, rounds: Sequence[Statement], names: Names) 
     if not isinstance(statement, Repeat):
         return statement
     inner = [body for one in rounds if isinstance(one, Repeat) for body in one.rounds]
+    if not inner:  # it is never executed, so that nothing is chosen in it
+        return replace(statement, rounds=())
     body = tuple(_summed_up(one, [each[at] for each in inner], names) for at, one in enumerate(statement.body))
-    return replace(statement, body=body if inner else statement.body, rounds=())
+    return replace(statement, body=body, rounds=())
 
 
 def _with_candidates(command: Command, motions: Sequence[str]) -> Command:

@@ -166,6 +166,7 @@ def test_what_stands_before_a_choice_is_chosen_for_what_may_come_after(reference
         ("repeat 167 { choose { Idle_01 | Idle_01 } }", False),
         ("repeat 1000000 { }\nIdle_01", True),
         ("repeat 0 { Walk_01 }\nIdle_01", True),
+        ("repeat 1 { WALK; repeat 0 { WALK } }\nIdle_01", True),
         ("Idle_01\n" * 501, True),
     ],
 )
