@@ -1,5 +1,6 @@
 # make demo    install, and play examples/tour.ms on the demo library into tour.bvh
-# make test    all tests;  make edits: the language server after 10,000 random edits;  make soak: its memory after 100,000
+# make test    all tests;  make random: twenty times as many examples of each random one
+# make edits   the language server after 10,000 random edits;  make soak: its memory after 100,000
 # make lint    style and who may import whom;  make types: mypy;  make bench: measurements beside peers
 # make pictures  the pictures of the README, the icon;  make recording: the session in it;  make grammars: what editors and the docs have of the grammar
 # make vsix    the extension for VS Code;  make test-vscode: tries it in a real one;  make screenshot: the picture of it
@@ -8,18 +9,22 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 
-.PHONY: demo test edits soak lint types bench pictures recording grammars vsix wheel clean
+.PHONY: demo test random edits soak lint types bench pictures recording grammars vsix wheel clean
 
 demo: $(VENV)/installed
 	$(BIN)/mlmgc examples/tour.ms -o tour.bvh --report tour.json
 	@echo "look at it: $(BIN)/mlmg view tour.bvh"
 
 test: $(VENV)/test-tools
-	$(BIN)/pytest -n auto
+	$(BIN)/pytest -n auto --dist worksteal
+
+# Of what is tried with random examples, many; a quarter of an hour of a core.
+random: $(VENV)/test-tools
+	$(BIN)/pytest -n auto --dist worksteal -m hypothesis --hypothesis-profile many
 
 # After each edit, what the language server says is compared with what a fresh one says; a quarter of an hour of a core.
 edits: $(VENV)/test-tools
-	$(BIN)/pytest -n auto tests/lsp/test_random_edits.py --edits 10000
+	$(BIN)/pytest -n auto tests/lsp/test_random_edits.py tests/lsp/test_features.py -k after_any_edits --edits 10000
 
 # Whether the memory of the language server grows over 100,000 edits; about an hour of a core.
 soak: $(VENV)/bench-tools
@@ -71,7 +76,7 @@ wheel: $(VENV)/test-tools
 	$(BIN)/python -m build --wheel --outdir dist
 	$(PYTHON) -m venv $(VENV)-wheel
 	$(VENV)-wheel/bin/pip install --quiet "$$(ls dist/*.whl)[test]"
-	MLMG_TEST_INSTALLED=1 $(VENV)-wheel/bin/pytest -n auto
+	MLMG_TEST_INSTALLED=1 $(VENV)-wheel/bin/pytest -n auto --dist worksteal
 
 clean:
 	rm -rf $(VENV) $(VENV)-wheel dist tour.bvh tour.json

@@ -7,15 +7,21 @@ from pathlib import Path
 import pytest
 from hypothesis import settings
 
-from mlmg_runtime.building.build import build_library
-from mlmg_runtime.building.reading.read_configuration import read_configuration
-from mlmg_runtime.built_library import BuiltLibrary
-from mlmg_runtime.database import write_database
-from mlmg_runtime.demo.library import demo_library as build_demo_library
-from mlmg_runtime.library import Library, open_library
+from mlmg_lang.commands.console import one_thread_a_product
+
+one_thread_a_product()  # as in the commands: else as many as there are processors wait by spinning, beside other tests
+
+from mlmg_runtime.building.build import build_library  # noqa: E402
+from mlmg_runtime.building.reading.read_configuration import read_configuration  # noqa: E402
+from mlmg_runtime.built_library import BuiltLibrary  # noqa: E402
+from mlmg_runtime.database import write_database  # noqa: E402
+from mlmg_runtime.demo.library import demo_library as build_demo_library  # noqa: E402
+from mlmg_runtime.library import Library, open_library  # noqa: E402
 
 # A machine shared with others is slow at times; how long an example takes is no part of a test.
-settings.register_profile("mlmg", deadline=None, max_examples=50)
+# A few are tried each time; `make random` tries many.
+settings.register_profile("mlmg", deadline=None, max_examples=25)
+settings.register_profile("many", deadline=None, max_examples=500)
 settings.load_profile("mlmg")
 
 # Programs that tests start are compiled once, as they are for users, and not at each start.

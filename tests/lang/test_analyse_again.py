@@ -201,7 +201,7 @@ GENERATED = run_path(str(Path(__file__).parent / "scripts_strategy.py"))["script
 DEFINED = st.lists(st.sampled_from((*LINES, *DEFINING, *DEFINING)), max_size=30).map("".join)
 PLAYABLE = st.lists(st.sampled_from(LINES), max_size=30).map("".join)
 LIBRARIES = st.sampled_from(("none", "reference", "left-hand", "hands", "cut", "far"))
-many = settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+many = settings(suppress_health_check=[HealthCheck.function_scoped_fixture])
 
 
 class Used:

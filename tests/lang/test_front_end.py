@@ -159,7 +159,7 @@ def assert_sound(analysis: Analysis) -> None:
             assert source.file(fix.span.start) == source.file(one.span.start), one
 
 
-@settings(max_examples=150)
+@settings(max_examples=4 * settings().max_examples)
 @given(texts=st.tuples(BODIES | mutated(), BODIES, BODIES))
 def test_every_place_lies_in_a_file_and_every_fix_in_that_of_its_mistake(
     left_hand_always: Any, texts: tuple[str, str, str]
@@ -191,7 +191,7 @@ def test_a_script_is_analysed_the_same_whenever_it_is(left_hand_always: Any, tex
 # --- texts without end ---
 
 
-MANY = 300_000
+MANY = 100_000
 
 
 @pytest.mark.parametrize(
@@ -245,7 +245,7 @@ def test_a_text_of_any_length_is_analysed(text: str, reference: Any) -> None:
 
 
 @pytest.mark.parametrize("seed", range(4))
-def test_hundreds_of_thousands_of_characters_of_nonsense_are_analysed(seed: int, reference: Any) -> None:
+def test_a_hundred_thousand_characters_of_nonsense_are_analysed(seed: int, reference: Any) -> None:
     draws = random.Random(seed)
     pools = [
         [chr(number) for number in range(1, 127)],
@@ -277,15 +277,15 @@ def test_hundreds_of_thousands_of_characters_of_nonsense_are_analysed(seed: int,
         assert len({one.code for one in analysis.diagnostics}) < 20
 
 
-def test_a_hundred_thousand_lines_are_analysed() -> None:
-    assert analyse(Source("IDLE\n" * 100_000)).diagnostics == ()
+def test_very_many_lines_are_analysed() -> None:
+    assert analyse(Source("IDLE\n" * 20_000)).diagnostics == ()
 
 
 def test_what_a_long_script_takes_grows_with_it_and_not_faster(reference: Any) -> None:
     """Counted in the bytes that are allocated at most, which are the same whatever else the machine does."""
     script = "IDLE for 1 sec; Upper-Body TALK for 1 sec; repeat 2 { choose { WALK | TALK } }\n"
     most = []
-    for n in (100, 400):
+    for n in (50, 200):
         source = Source(script * n)
         tracemalloc.start()
         analyse(source, reference)

@@ -280,7 +280,7 @@ def mistakes(analysis: Analysis) -> set[str]:
     return {one.code for one in analysis.diagnostics if one.severity == "error"}
 
 
-@settings(max_examples=150)
+@settings(max_examples=2 * settings().max_examples)
 @given(scripts())
 def test_a_definition_means_what_it_says_in_parentheses(left_hand_always: Any, script: Script) -> None:
     defined = analyse(Source(script.defined), left_hand_always)

@@ -301,7 +301,7 @@ COMMANDS = st.one_of(
 BODIES = st.recursive(
     st.lists(COMMANDS, min_size=1, max_size=3).map("; ".join),
     lambda inner: st.one_of(
-        st.builds("repeat {} {{ {} }}".format, st.integers(0, 4), inner),
+        st.builds("repeat {} {{ {} }}".format, st.integers(0, 2), inner),
         st.builds("choose {{ {} | 2: {} | }}".format, inner, inner),
         st.builds("{}\n{}".format, inner, inner),
     ),
@@ -310,6 +310,7 @@ BODIES = st.recursive(
 
 
 @example(body="Upper-Body IDLE with Left-Hand WAVE for 2 sec; Idle_02 and WALK", start="Walk_03", ahead=False)
+@example(body="repeat 4 { WALK and TALK; end Upper-Body }", start="Idle_01", ahead=True)
 @given(body=BODIES, start=st.sampled_from(["Idle_01", "Walk_03", "Idle_02"]), ahead=st.booleans())
 def test_whatever_a_script_says_it_is_explained(body, start, ahead, made_library, flat):
     analysis = analyse(Source(body, "script.ms"), made_library, start)

@@ -55,7 +55,7 @@ def test_a_script_that_is_too_long_to_be_read_stays_as_it_is(monkeypatch: pytest
     assert (kept.text, kept.whole) == ("A\n  B\n   C", False)
 
 
-@settings(max_examples=150)
+@settings(max_examples=2 * settings().max_examples)
 @given(data=st.data())
 def test_a_valid_script_keeps_its_meaning_and_comments(
     data: st.DataObject, scripts: SearchStrategy[str], formatted: Formatted
@@ -67,7 +67,7 @@ def test_a_valid_script_keeps_its_meaning_and_comments(
     formatted(text)
 
 
-@settings(max_examples=150)
+@settings(max_examples=4 * settings().max_examples)
 @example('WALK } " WALK')
 @example('WALK ; " with')
 @example("2: { with")

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable
 from itertools import pairwise
 
 import pytest
-from hypothesis import example, given, settings
+from hypothesis import example, given
 from hypothesis import strategies as st
 from hypothesis.strategies import SearchStrategy
 
@@ -18,7 +18,6 @@ PIECES = [
     *("WALK", "with", "for", "3 s", "2:", "repeat 2 {", "choose {", "{", "}", "}", "(", ")", "|", ";", ",", "05"),
     *('"', '"WALK"', "\n", "\n", "\n", "\r\n", "\n\n\n", "\n;\n", "# c\n", "\n  # own\n", "# mlmg: ignore[MS045]\n"),
 ]
-CALM = settings(max_examples=100)
 
 
 def changes_of(text: str) -> list[Edit]:
@@ -70,7 +69,6 @@ def test_within_lines_words_change_and_the_spaces_between_them(text: str, expect
     assert [part.replacement for parts in found for part in parts] == expected
 
 
-@CALM
 @given(data=st.data())
 def test_a_script_says_the_same_whichever_changes_are_made(
     data: st.DataObject, scripts: SearchStrategy[str], facts: Callable[[str], object]
@@ -84,7 +82,6 @@ def test_a_script_says_the_same_whichever_changes_are_made(
     assert format_source(Source(made)) == format_source(Source(text))
 
 
-@CALM
 @example('WALK } \n " WALK')
 @given(st.lists(st.sampled_from(PIECES), max_size=30).map(" ".join))
 def test_all_changes_come_to_the_canonical_form_whatever_the_text(text: str) -> None:

@@ -5,7 +5,7 @@ from dataclasses import fields, is_dataclass
 from typing import Any
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from mlmg_lang.catalog import Catalog
@@ -194,7 +194,6 @@ def offered(text: str, library: Catalog) -> Iterator[tuple[Analysis, Action]]:
     yield from ((analysis, one) for one in once.values())
 
 
-@settings(max_examples=60, deadline=None)
 @given(SCRIPTS)
 def test_whatever_is_chosen_plays_the_same(left_hand_always: Catalog, text: str) -> None:
     for analysis, action in offered(text, left_hand_always):
@@ -202,7 +201,6 @@ def test_whatever_is_chosen_plays_the_same(left_hand_always: Catalog, text: str)
         assert analysis.resolved is None or plain(after.resolved) == plain(analysis.resolved), changed(text, action)
 
 
-@settings(max_examples=60, deadline=None)
 @given(SCRIPTS)
 def test_what_is_to_be_silenced_is_told_no_longer(left_hand_always: Catalog, text: str) -> None:
     for analysis, action in offered(text, left_hand_always):
@@ -221,7 +219,6 @@ def test_in_any_text_edits_come_in_order_and_stay_inside(
         assert ends[-1] <= len(text)
 
 
-@settings(max_examples=60)
 @given(SCRIPTS, st.sampled_from(LINES), SCRIPTS, st.integers(0, 200))
 def test_after_an_edit_the_same_is_offered_as_in_a_text_afresh(
     left_hand_always: Catalog, before: str, new: str, after: str, offset: int

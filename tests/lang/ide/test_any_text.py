@@ -47,6 +47,7 @@ LINES = (
     *("Upper-Body (G or Sub G)", "# G", "", "WALK\u2028G", "e\u0301 é", "G;G", "\tG\r", 'HI with"a b"', "let HI = HI2"),
 )
 TEXTS = st.lists(st.sampled_from(LINES), max_size=8).map("\n".join)
+FEW_LINES = st.lists(st.sampled_from(LINES), max_size=4).map("\n".join)
 
 
 class Folder:
@@ -64,8 +65,8 @@ def answers(analysis: Analysis, offset: int) -> tuple[object, ...]:
     return (*(ask(analysis, offset) for ask in asked), rename(analysis, offset, "NEW 走"), document_links(analysis))
 
 
-@settings(max_examples=25, suppress_health_check=[HealthCheck.function_scoped_fixture])
-@given(TEXTS, TEXTS, TEXTS, TEXTS)
+@settings(suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(FEW_LINES, FEW_LINES, FEW_LINES, FEW_LINES)
 def test_after_an_edit_all_is_said_as_of_the_text_afresh(reference, before, old, new, after):
     files = Folder()
     first = analyse(Source(f"{before}\n{old}\n{after}"), reference, files=files)
@@ -76,7 +77,7 @@ def test_after_an_edit_all_is_said_as_of_the_text_afresh(reference, before, old,
 
 
 @pytest.mark.parametrize("known", [True, False])
-@settings(max_examples=25, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(text=TEXTS)
 def test_places_hold_the_name_that_was_asked_for(reference, known, text):
     analysis = analyse(Source(text), reference if known else None, files=Folder())
@@ -96,7 +97,7 @@ def test_places_hold_the_name_that_was_asked_for(reference, known, text):
         assert {one.span for one in highlights(analysis, offset)} >= {found.span}
 
 
-@settings(max_examples=60, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(text=st.text(st.sampled_from('GW走"\\(){}|;:,=#-_ \n\r\t\u2028\u0301😀10.s'), max_size=30))
 def test_of_any_signs_something_or_nothing_is_said(reference, text):
     analysis = analyse(Source(f"let G = WALK\nlet W(s) = s\n{text}"), reference)

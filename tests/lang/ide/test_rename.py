@@ -198,7 +198,7 @@ LINES = (
 NEW = ("STROLL", "走路", "hand on hip", "with care", "t", "x", "sec", "then", "loop", "G2", "a-b", 'q"q', "\u00e9", "H")
 
 
-@settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(
     st.lists(st.sampled_from(LINES), min_size=1, max_size=8, unique=True),
     st.sampled_from(NEW),

@@ -20,6 +20,7 @@ from mlmg_lang.front_end import Analysis, analyse
 from mlmg_lang.planning import resolved, typed
 from mlmg_lang.source import Source, Span
 
+pytestmark = pytest.mark.hypothesis
 Playing = frozenset[tuple[str, str]]
 """The motion of each graph that runs."""
 Wanted = Mapping[str, Sequence[str]]
@@ -277,7 +278,7 @@ def happens(span: Span, stuck: Iterable[tuple[Span, str, str]]) -> bool:
 
 @pytest.mark.parametrize("depth", [0, 2], ids=["straight", "looping"])
 def test_what_resolves_can_be_played_in_every_order_and_by_every_choice(depth: int, catalog: Any) -> None:
-    @settings(max_examples=120)
+    @settings(max_examples=2 * settings().max_examples)
     @given(cases(catalog, depth=depth, loses=False))
     def holds(case: tuple[Any, str]) -> None:
         library, text = case
@@ -296,7 +297,7 @@ def test_what_is_refused_cannot_be_obeyed_in_some_order_and_by_some_choice(
 ) -> None:
     """In a loop what plays on two graphs is not followed as a pair, so with any pairs cut it may be refused in vain."""
 
-    @settings(max_examples=120)
+    @settings(max_examples=2 * settings().max_examples)
     @given(cases(catalog, depth=depth, loses=loses))
     def holds(case: tuple[Any, str]) -> None:
         library, text = case
@@ -315,7 +316,7 @@ def test_what_is_refused_cannot_be_obeyed_in_some_order_and_by_some_choice(
 
 @pytest.mark.parametrize("depth", [0, 2], ids=["straight", "looping"])
 def test_an_end_that_is_warned_of_ends_nothing_in_any_order(depth: int, catalog: Any) -> None:
-    @settings(max_examples=120)
+    @settings(max_examples=2 * settings().max_examples)
     @given(cases(catalog, depth=depth, loses=True))
     def holds(case: tuple[Any, str]) -> None:
         library, text = case
@@ -358,7 +359,6 @@ def asked(text: str, library: Any) -> tuple[list[str], list[Any]]:
     ],
 )
 def test_what_changes_nothing_changes_nothing(before: str, after: str, catalog: Any) -> None:
-    @settings(max_examples=60)
     @given(cases(catalog, depth=1, loses=False))
     def holds(case: tuple[Any, str]) -> None:
         library, text = case
@@ -368,7 +368,6 @@ def test_what_changes_nothing_changes_nothing(before: str, after: str, catalog: 
 
 
 def test_how_often_a_loop_goes_round_does_not_matter_from_the_second_time_on(catalog: Any) -> None:
-    @settings(max_examples=60)
     @given(cases(catalog, depth=1, loses=False))
     def holds(case: tuple[Any, str]) -> None:
         library, text = case

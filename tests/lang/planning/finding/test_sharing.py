@@ -134,7 +134,7 @@ def questions(draw: st.DrawFn) -> tuple[dict[str, Any], dict[str, str], list[Ope
     return on, above, operands
 
 
-@settings(max_examples=200)
+@settings(max_examples=4 * settings().max_examples)
 @given(questions())
 def test_an_and_is_shared_out_as_trying_everything_would(catalog: Any, question: Any) -> None:
     on, above, operands = question
