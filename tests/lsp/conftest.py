@@ -4,14 +4,18 @@ from __future__ import annotations
 
 import json
 import os
+import signal
 import subprocess
 import sys
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager, suppress
+from multiprocessing import Pipe
+from multiprocessing.connection import Connection
+from multiprocessing.reduction import send_handle
 from pathlib import Path
 from queue import Queue
 from threading import Thread
-from typing import Any, BinaryIO
+from typing import Any, BinaryIO, TypeAlias
 
 import pytest
 
@@ -24,7 +28,7 @@ WAIT_S = 60.0
 class Client:
     """An editor, as far as the server can tell."""
 
-    def __init__(self, process: subprocess.Popen[bytes]) -> None:
+    def __init__(self, process: Process) -> None:
         assert process.stdin is not None
         assert process.stdout is not None
         self.process = process
@@ -164,25 +168,75 @@ class Client:
         return self.process.wait(WAIT_S)
 
 
+class Forked:
+    """A process of a server that has been forked, in place of `subprocess.Popen`."""
+
+    def __init__(self, forker: Connection, pid: int, stdin: BinaryIO, stdout: BinaryIO) -> None:
+        self.pid, self.stdin, self.stdout = pid, stdin, stdout
+        self._forker = forker
+        self._code: int | None = None
+
+    def wait(self, timeout: float = WAIT_S) -> int:
+        """Return the exit code when it has ended."""
+        if self._code is None:
+            self._forker.send(("wait", self.pid, timeout))
+            self._code = self._forker.recv()
+        if self._code is None:
+            raise subprocess.TimeoutExpired("mlmg lsp", timeout)
+        return self._code
+
+    def kill(self) -> None:
+        """End it at once."""
+        if self._code is None:
+            os.kill(self.pid, signal.SIGKILL)
+
+
+Process: TypeAlias = "subprocess.Popen[bytes] | Forked"
+Begin: TypeAlias = Callable[[list[str], Path, dict[str, str]], Process]
+"""Begins a process: with which words, where, and in which environment."""
+
+
+def run_program(words: list[str], folder: Path, environment: dict[str, str]) -> Process:
+    """Start the program itself."""
+    program = [sys.executable, "-m", "mlmg_lang.commands.mlmg", *words]
+    return subprocess.Popen(program, stdin=subprocess.PIPE, stdout=subprocess.PIPE, cwd=folder, env=environment)
+
+
+@pytest.fixture(scope="session")
+def fork() -> Iterator[Begin]:
+    """Return what begins a server without its imports, where processes can be forked."""
+    if not hasattr(os, "fork"):
+        yield run_program
+        return
+    own, other = Pipe()
+    program = [sys.executable, str(Path(__file__).with_name("forking.py")), str(other.fileno())]
+    with subprocess.Popen(program, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, pass_fds=[other.fileno()]):
+        other.close()
+
+        def begin(words: list[str], folder: Path, environment: dict[str, str]) -> Process:
+            own.send(("begin", str(folder), words, environment))
+            incoming, outgoing = os.pipe(), os.pipe()
+            for pipe in (incoming[0], outgoing[1]):
+                send_handle(own, pipe, None)
+                os.close(pipe)
+            pid = own.recv()
+            return Forked(own, pid, os.fdopen(incoming[1], "wb"), os.fdopen(outgoing[0], "rb"))
+
+        yield begin
+        own.close()
+
+
 @contextmanager
-def starting(folder: Path, library: Path) -> Iterator[Callable[..., Client]]:
+def starting(begin: Begin, folder: Path, library: Path) -> Iterator[Callable[..., Client]]:
     """Give a function: options of `mlmg lsp` -> a client of a new process. Without any, a library is used."""
-    started: list[subprocess.Popen[bytes]] = []
+    started: list[Process] = []
 
-    def begin(*options: str) -> Client:
-        words = options or ("--library", str(library))
+    def start(*options: str) -> Client:
         environment = {name: value for name, value in os.environ.items() if name != "MLMG_LIBRARY"}
-        process = subprocess.Popen(
-            [sys.executable, "-m", "mlmg_lang.commands.mlmg", "lsp", *words],
-            stdin=subprocess.PIPE,
-            stdout=subprocess.PIPE,
-            cwd=folder,
-            env=environment,
-        )
-        started.append(process)
-        return Client(process)
+        started.append(begin(["lsp", *(options or ("--library", str(library)))], folder, environment))
+        return Client(started[-1])
 
-    yield begin
+    yield start
     for process in started:
         process.kill()
         process.wait()
@@ -193,14 +247,23 @@ def starting(folder: Path, library: Path) -> Iterator[Callable[..., Client]]:
 
 
 @pytest.fixture
-def start(tmp_path: Path, demo_library: Library) -> Iterator[Callable[..., Client]]:
+def start(fork: Begin, tmp_path: Path, demo_library: Library) -> Iterator[Callable[..., Client]]:
     """Return a function: options of `mlmg lsp` -> a client of a new process. Without any, the demo library is used."""
-    with starting(tmp_path, demo_library.path) as begin:
+    with starting(fork, tmp_path, demo_library.path) as begin:
+        yield begin
+
+
+@pytest.fixture
+def start_program(tmp_path: Path, demo_library: Library) -> Iterator[Callable[..., Client]]:
+    """Return the same where the start is the point: the program as editors start it."""
+    with starting(run_program, tmp_path, demo_library.path) as begin:
         yield begin
 
 
 @pytest.fixture(scope="module")
-def start_for_all(tmp_path_factory: pytest.TempPathFactory, demo_library: Library) -> Iterator[Callable[..., Client]]:
-    """Return the same for clients that all tests of a module share."""
-    with starting(tmp_path_factory.mktemp("all"), demo_library.path) as begin:
+def start_for_all(
+    fork: Begin, tmp_path_factory: pytest.TempPathFactory, demo_library: Library
+) -> Iterator[Callable[..., Client]]:
+    """Return a function as `start` for clients that all tests of a module share."""
+    with starting(fork, tmp_path_factory.mktemp("all"), demo_library.path) as begin:
         yield begin

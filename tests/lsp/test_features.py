@@ -18,6 +18,7 @@ from mlmg_runtime.demo.clips import demo_clips
 URI = "untitled:Untitled-1"
 OPTIONS = {"tabSize": 4, "insertSpaces": True}
 SNIPPETS = {"textDocument": {"completion": {"completionItem": {"snippetSupport": True}}}}
+ENCODINGS = ("utf-16", "utf-8", "utf-32")
 DEFINED = "# 😀\r\nlet greet(who, t = 2 sec) = who with Upper-Body WAVE for t\r\ngreet(WALK)\r\ngreet(IDLE, 3 sec)"
 
 
@@ -397,14 +398,14 @@ def position(text: str, offset: int, encoding: str) -> dict[str, int]:
     return {"line": len(lines) - 1, "character": len(lines[-1].encode(name)) // size}
 
 
-@pytest.mark.parametrize(("encoding", "n_edits"), [("utf-16", 90), ("utf-8", 60), ("utf-32", 60)])
-def test_after_any_edits_diagnostics_are_those_of_a_fresh_analysis(start, demo_library, encoding, n_edits):
+@pytest.mark.parametrize("encoding", ENCODINGS)
+def test_after_any_edits_diagnostics_are_those_of_a_fresh_analysis(start, demo_library, encoding, request):
     client = start()
     client.initialize({"general": {"positionEncodings": [encoding]}})
     draw, text = random.Random(encoding), "IDLE\r\nWALK for 2 sec\n"
     client.open(URI, text, version=0)
     client.diagnostics(URI, 0)
-    for version in range(1, n_edits + 1):
+    for version in range(1, -(-request.config.getoption("--edits") // len(ENCODINGS)) + 1):
         begin, end, new = edit_of(draw, text)
         while 0 < begin < len(text) and text[begin - 1 : begin + 1] == "\r\n":
             begin -= 1

@@ -5,7 +5,7 @@ import pytest
 URI = "untitled:Untitled-1"
 TEXT = "IDLE for 1 sec\nlet go(who) = who for 2000 ms\ngo(WALK)\nTalk_01 for 1 sec\n"
 REFRESHED = {"workspace": {"inlayHint": {"refreshSupport": True}}}
-LONG = "WALK for 3 sec\nIDLE for 2000 ms\nWALK with Upper-Body TALK for 3 sec\n" * 1_000
+LONG = "WALK for 3 sec\nIDLE for 2000 ms\nWALK with Upper-Body TALK for 3 sec\n" * 400
 
 
 def hints(client, first: int = 0, last: int = 10) -> list[tuple[int, str]]:

@@ -137,11 +137,11 @@ def uri(tmp_path: Path) -> str:
 
 
 @pytest.mark.parametrize("encoding", WAYS)
-def test_after_any_edits_all_that_is_said_is_what_a_fresh_server_says(start, uri, encoding, request):
+def test_after_any_edits_all_that_is_said_is_what_a_fresh_server_says(start, start_program, uri, encoding, request):
     edited, fresh = (Editor(start, uri, encoding) for _ in range(2))
     n_edits = -(-request.config.getoption("--edits") // len(WAYS))
     for seed, n_in_session in sessions(n_edits):
         text, told = play(1000 * list(WAYS).index(encoding) + seed, n_in_session, edited, fresh)
-        just_started = Editor(start, uri, encoding)
+        just_started = Editor(start_program, uri, encoding)
         assert just_started.open(text) == told
         assert just_started.client.leave() == 0

@@ -48,8 +48,8 @@ def refusal(client, method: str, params: object) -> int:
     return client.outcome(client.begin(method, params))["error"]["code"]
 
 
-def test_it_says_who_it_is_and_what_it_does(start):
-    result = start().initialize()
+def test_it_says_who_it_is_and_what_it_does(start_program):
+    result = start_program().initialize()
     assert result["serverInfo"]["name"] == "mlmg lsp"
     told = result["capabilities"]
     assert told["positionEncoding"] == "utf-16"
@@ -177,23 +177,23 @@ def test_all_that_is_sure_is_fixed_at_once_when_that_is_chosen(start):
 # --- it goes on, and it ends ---
 
 
-def test_it_ends_in_order_when_it_is_told_to(start):
-    client = start()
+def test_it_ends_in_order_when_it_is_told_to(start_program):
+    client = start_program()
     client.initialize()
     assert client.leave() == 0
 
 
-def test_it_ends_when_the_client_has_gone_without_a_word(start):
-    client = start()
+def test_it_ends_when_the_client_has_gone_without_a_word(start_program):
+    client = start_program()
     client.initialize()
     client.close()
     assert client.process.wait(30) == 1
 
 
-def test_it_ends_when_the_process_of_the_client_has_gone(start):
+def test_it_ends_when_the_process_of_the_client_has_gone(start_program):
     gone = subprocess.Popen([sys.executable, "-c", "pass"])
     gone.wait()
-    client = start()
+    client = start_program()
     client.initialize(processId=gone.pid)
     assert client.process.wait(30) == 1
 
@@ -285,7 +285,8 @@ def test_a_client_that_asks_is_told_to_ask_again_when_it_sets_the_library(start,
     assert [one["code"] for one in found] == ["MS021"]
 
 
-def test_a_client_that_shows_buttons_offers_the_demo_library(start, tmp_path):
+def test_a_client_that_shows_buttons_offers_the_demo_library(start, tmp_path, demo_library, monkeypatch):
+    monkeypatch.setenv("MLMG_CACHE", str(demo_library.path.parent))
     client = start("--stdio")
     client.answer_with("window/showMessageRequest", {"title": "Use the demo library"})
     client.initialize(PUSHED | {"experimental": {"offers": True}}, rootUri=tmp_path.as_uri())

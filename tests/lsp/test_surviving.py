@@ -43,7 +43,7 @@ def survivor(start_for_all):
 
 
 def test_a_server_that_is_killed_leaves_nothing_behind_and_the_next_says_the_same(
-    start, tmp_path, demo_library, monkeypatch
+    start_program, tmp_path, demo_library, monkeypatch
 ):
     for name in ("temporary", "library"):
         (tmp_path / name).mkdir()
@@ -51,7 +51,7 @@ def test_a_server_that_is_killed_leaves_nothing_behind_and_the_next_says_the_sam
     monkeypatch.setenv("TMPDIR", str(tmp_path / "temporary"))
     said = []
     for ends in (lambda client: client.process.kill(), lambda client: client.leave()):
-        client = start("--library", str(library))
+        client = start_program("--library", str(library))
         client.initialize(PUSHED)
         client.open(URI, "WLAK for 3 sec\nIDLE\n")
         said.append((client.diagnostics(URI), client.ask("textDocument/documentSymbol", HERE)))
@@ -67,16 +67,16 @@ def test_a_server_that_is_killed_leaves_nothing_behind_and_the_next_says_the_sam
     assert library.read_bytes() == demo_library.path.read_bytes()
 
 
-def test_a_client_that_goes_in_the_middle_of_a_message_ends_the_server(start):
-    client = start()
+def test_a_client_that_goes_in_the_middle_of_a_message_ends_the_server(start_program):
+    client = start_program()
     client.initialize()
     client.send_raw(b'Content-Length: 1000\r\n\r\n{"jsonrpc"')
     client.close()
     assert client.process.wait(60) == 1
 
 
-def test_a_client_that_goes_while_it_is_answered_ends_the_server(start):
-    client = start()
+def test_a_client_that_goes_while_it_is_answered_ends_the_server(start_program):
+    client = start_program()
     client.initialize()
     client.open(URI, "WALK   for 3 sec\n" * 5_000)
     for _ in range(5):

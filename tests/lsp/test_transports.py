@@ -35,9 +35,10 @@ def serving(way: str, folder, library) -> Iterator[tuple[subprocess.Popen[bytes]
             process.kill()
 
 
-@pytest.fixture(params=["tcp", "ws"])
-def address(request, tmp_path, demo_library) -> Iterator[tuple[str, int]]:
-    with serving(request.param, tmp_path, demo_library) as (_, port):
+@pytest.fixture(scope="module", params=["tcp", "ws"])
+def address(request, tmp_path_factory, demo_library) -> Iterator[tuple[str, int]]:
+    """Return where a server is that those tests share which leave it as it is."""
+    with serving(request.param, tmp_path_factory.mktemp(request.param), demo_library) as (_, port):
         yield request.param, port
 
 
@@ -151,7 +152,7 @@ def test_a_signal_ends_it_without_a_word_whatever_it_is_at(name, code, tmp_path,
     program = [sys.executable, "-m", "mlmg_lang.commands.mlmg", "lsp", "--library", str(demo_library.path)]
     pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
     with subprocess.Popen(program, cwd=tmp_path, **pipes) as process:
-        item = {"uri": URI, "languageId": "motion-script", "version": 1, "text": "WALK for 2 sec\nIDLE\n" * 2_000}
+        item = {"uri": URI, "languageId": "motion-script", "version": 1, "text": "WALK for 2 sec\nIDLE\n" * 500}
         for message in (*MESSAGES, {"method": "textDocument/didOpen", "params": {"textDocument": item}}):
             body = json.dumps({"jsonrpc": "2.0", **message}).encode()
             process.stdin.write(b"Content-Length: %d\r\n\r\n%b" % (len(body), body))
@@ -170,7 +171,7 @@ def test_a_signal_ends_it_without_a_word_whatever_it_is_at(name, code, tmp_path,
 )
 @pytest.mark.parametrize("way", ["tcp", "ws"])
 def test_a_signal_ends_it_and_all_connections_in_order_whatever_it_is_at(way, name, code, said, tmp_path, demo_library):
-    item = {"uri": URI, "languageId": "motion-script", "version": 1, "text": "WALK for 2 sec\nIDLE\n" * 2_000}
+    item = {"uri": URI, "languageId": "motion-script", "version": 1, "text": "WALK for 2 sec\nIDLE\n" * 500}
     asked = {"textDocument": {"uri": URI}}
     of_none = {"textDocument": {"uri": "untitled:none"}, "position": {"line": 0, "character": 0}}
     with serving(way, tmp_path, demo_library) as (process, port):
