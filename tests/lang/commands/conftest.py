@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import shutil
 from contextlib import redirect_stderr
 from pathlib import Path
 
@@ -53,20 +54,31 @@ def clip(seed: int, n_frames: int = 90) -> Bvh:
     return Bvh(joints, 1 / 30, frames)
 
 
-@pytest.fixture
-def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """Return a folder with clips and a configuration, and stand in it; no setting of the user's counts."""
+@pytest.fixture(scope="session")
+def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Return a folder with clips, a configuration and the library that is built of them, to be copied."""
+    made = tmp_path_factory.mktemp("made")
     for seed, name in enumerate(("Stand", "Step", "Reach")):
-        bvh.write(clip(seed), tmp_path / f"{name}.bvh")
-    (tmp_path / "library.toml").write_text(CONFIGURATION, encoding="utf-8")
+        bvh.write(clip(seed), made / f"{name}.bvh")
+    (made / "library.toml").write_text(CONFIGURATION, encoding="utf-8")
+    with redirect_stderr(io.StringIO()):
+        assert mlmg.main(["build", str(made / "library.toml"), "-o", str(made / "my.mlmg")]) == 0
+    return made
+
+
+@pytest.fixture
+def folder(made: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """Return a folder with clips and a configuration, and stand in it; no setting of the user's counts."""
+    for path in made.iterdir():
+        if path.name != "my.mlmg":
+            shutil.copy(path, tmp_path)
     monkeypatch.chdir(tmp_path)
     monkeypatch.delenv("MLMG_LIBRARY", raising=False)
     return tmp_path
 
 
 @pytest.fixture
-def built(folder: Path) -> Path:
-    """Return the folder with its library built."""
-    with redirect_stderr(io.StringIO()):
-        assert mlmg.main(["build", "library.toml", "-o", "my.mlmg"]) == 0
+def built(made: Path, folder: Path) -> Path:
+    """Return the folder with its library."""
+    shutil.copy(made / "my.mlmg", folder)
     return folder

@@ -151,8 +151,8 @@ def test_the_setting_beside_a_script_names_its_library(scene, tmp_path_factory, 
     assert mlmgc.main([str(scene / "scene.ms"), "-o", str(scene / "out.bvh")]) == 0
 
 
-def test_without_a_library_the_demo_library_plays_and_says_so_in_one_line(folder, tmp_path, monkeypatch, capsys):
-    monkeypatch.setenv("MLMG_CACHE", str(tmp_path / "cache"))
+def test_without_a_library_the_demo_library_plays_and_says_so_in_one_line(folder, demo_library, monkeypatch, capsys):
+    monkeypatch.setenv("MLMG_CACHE", str(demo_library.path.parent))
     (folder / "scene.ms").write_text("Idle_01 for 1 sec\n")
     assert mlmgc.main(["scene.ms", "-o", "out.bvh"]) == 0
     assert capsys.readouterr().err.splitlines() == [

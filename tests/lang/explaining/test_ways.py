@@ -50,7 +50,7 @@ def test_every_way_of_the_demo_library_is_as_soon_and_as_smooth_as_the_search_fi
 
 
 def test_every_way_of_real_clips_is_as_soon_and_as_smooth_as_the_search_finds_it(reference_library: Library):
-    assert all(check(graph, 23, to_begin=False) for graph in reference_library.by_name.values())
+    assert all(check(graph, 47, to_begin=False) for graph in reference_library.by_name.values())
 
 
 @given(data=st.data(), to_begin=st.booleans())

@@ -110,7 +110,7 @@ def falls_apart_without(positions: Positions, edges: Edges, kept: np.ndarray, nu
 SIGMAS = st.sampled_from([0, 0.04, 0.1, 0.3, 1, 3, 5, 9, 17])
 
 
-@settings(max_examples=150)
+@settings(max_examples=4 * settings().max_examples)
 @given(cases(), SIGMAS, st.sets(st.integers(1, 16)))
 def test_bridges_join_all_motions_that_can_be_joined_and_keep_every_smooth_transition(case, sigma, hurrying) -> None:
     positions, edges = case
@@ -119,7 +119,7 @@ def test_bridges_join_all_motions_that_can_be_joined_and_keep_every_smooth_trans
     assert motions_of(positions, edges.where(kept)) >= motions_of(positions, edges)
 
 
-@settings(max_examples=150)
+@settings(max_examples=4 * settings().max_examples)
 @given(cases(), SIGMAS)
 def test_no_bridge_is_dearer_than_usual_unless_the_motions_need_so_dear_a_one(case, sigma) -> None:
     positions, edges = case
@@ -130,7 +130,7 @@ def test_no_bridge_is_dearer_than_usual_unless_the_motions_need_so_dear_a_one(ca
         assert not motions_of(positions, edges.where(cheaper)) >= motions_of(positions, edges)
 
 
-@settings(max_examples=150)
+@settings(max_examples=4 * settings().max_examples)
 @given(cases(), SIGMAS)
 def test_motions_with_a_usual_bridge_have_no_dearer_one_unless_all_fall_apart_without_it(case, sigma) -> None:
     positions, edges = case
@@ -152,7 +152,7 @@ def best_of_windows(edges: Edges, out: np.ndarray) -> np.ndarray:
     return best
 
 
-@settings(max_examples=150)
+@settings(max_examples=4 * settings().max_examples)
 @given(cases(), SIGMAS, st.sets(st.integers(1, 16)))
 def test_bridges_are_the_calm_best_of_their_windows_if_these_join_all_motions(case, sigma, hurrying) -> None:
     positions, edges = case

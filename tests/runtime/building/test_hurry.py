@@ -2,7 +2,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from mlmg_runtime import rotations
@@ -47,7 +47,6 @@ def slow_hurry(points, weights, blend, edge: tuple[int, int, int, int]) -> float
     return largest
 
 
-@settings(max_examples=60)
 @given(st.integers(0, 2**32 - 1), st.sampled_from(["c1", "linear"]))
 def test_how_much_transitions_hurry_is_what_frame_by_frame_blends_say(seed: int, blend: str) -> None:
     draw = np.random.default_rng(seed)

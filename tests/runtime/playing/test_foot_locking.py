@@ -164,7 +164,7 @@ def slides(library: Library, edge: Transition, poses: Poses) -> list[float]:
 
 def test_feet_that_stand_before_and_after_a_step_do_not_slide(demo_library: Library) -> None:
     free, locked = [], []
-    for edge in walking(demo_library):
+    for edge in walking(demo_library)[::2]:
         for poses, found in zip(both(demo_library, alone(demo_library, edge)), (free, locked), strict=True):
             found.extend(slides(demo_library, edge, poses))
     assert len(free) > 50

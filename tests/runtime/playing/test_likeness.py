@@ -10,7 +10,7 @@ from mlmg_runtime.skeleton import world_positions
 FRAMES = st.integers(0, 130)
 
 
-@settings(max_examples=150)
+@settings(max_examples=4 * settings().max_examples)
 @given(
     name=st.sampled_from(["Full-Body", "Upper-Body", "Left-Arm"]),
     motion=st.sampled_from(["Stand", "Reach"]),

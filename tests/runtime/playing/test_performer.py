@@ -125,7 +125,7 @@ def motions_of(segment: Segment) -> set[int]:
     return {at.motion for at in places if at is not None}
 
 
-@settings(max_examples=150)
+@settings(max_examples=4 * settings().max_examples)
 @given(seed=SEEDS)
 def test_whatever_is_asked_the_timeline_obeys_the_graphs_and_both_rules(
     seed: int, moves, ask, small_library: Library
@@ -333,7 +333,7 @@ class Model:
         return None if walk is None else (first + walk.n_frames, targets[walk.target])
 
 
-@settings(max_examples=120)
+@settings(max_examples=4 * settings().max_examples)
 @given(seed=SEEDS)
 def test_everything_asked_is_done_as_the_rules_say_and_as_soon_as_can_be(
     seed: int, moves, ask, soonest, small_library: Library
@@ -351,7 +351,7 @@ def test_everything_asked_is_done_as_the_rules_say_and_as_soon_as_can_be(
         model.check()
 
 
-@settings(max_examples=100)
+@settings(max_examples=2 * settings().max_examples)
 @given(seed=SEEDS)
 def test_where_no_part_runs_levels_at_once_are_levels_one_after_the_other(
     seed: int, moves, ask, small_library: Library
@@ -365,7 +365,6 @@ def test_where_no_part_runs_levels_at_once_are_levels_one_after_the_other(
         assert at_once.timeline() == one_by_one.timeline()
 
 
-@settings(max_examples=50)
 @given(seed=SEEDS)
 def test_the_same_things_asked_again_give_the_same_timeline(seed: int, moves, ask, small_library: Library) -> None:
     start = small_library.root.motions[seed % 4]

@@ -6,7 +6,7 @@ from itertools import takewhile
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from mlmg_runtime import rotations
@@ -113,7 +113,6 @@ def slow_hurries(
         yield largest
 
 
-@settings(max_examples=40, deadline=None)
 @given(
     seed=st.integers(0, 2**32 - 1),
     name=st.sampled_from(["Upper-Body", "Left-Arm"]),
@@ -138,7 +137,6 @@ def slow_choice(library: Library, graph: MotionGraph, rest: Rest, places: list[i
     return min(hurries, key=hurries.get), length
 
 
-@settings(max_examples=60, deadline=None)
 @given(seed=st.integers(0, 2**32 - 1), name=st.sampled_from(["Upper-Body", "Left-Arm", "Right-Arm"]))
 def test_until_it_is_let_go_a_part_goes_on_with_what_it_does(seed: int, name: str, small_library: Library) -> None:
     graph = small_library.by_name[name]

@@ -3,7 +3,7 @@ from fractions import Fraction
 from math import ceil, floor
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from mlmg_runtime.clips import resample
@@ -74,7 +74,6 @@ def test_each_output_frame_lies_in_the_segment_that_its_time_lies_in(n: int, rat
     assert output_frame(frame, float(ratio), n_frames) == min(ceil(frame * ratio), n_frames)
 
 
-@settings(max_examples=60)
 @given(seed=st.integers(0, 2**32 - 1), rate=st.sampled_from([5.0, 12.5, 24.0, 25.0, 30.0, 60.0, 59.94, 120.0]))
 def test_at_any_rate_the_tracks_tell_of_every_frame_of_the_output_once(
     seed: int, rate: float, moves, ask, small_library: Library

@@ -80,7 +80,7 @@ def cases(draw: st.DrawFn, graphs: st.SearchStrategy[MotionGraph]):
     return graph, position, now, above, now + draw(st.integers(0, 60))
 
 
-@settings(max_examples=200)
+@settings(max_examples=4 * settings().max_examples)
 @given(data=st.data())
 def test_of_all_ways_back_the_soonest_is_taken_then_the_smoothest_then_the_least_bent(data, motion_graphs) -> None:
     graph, position, time, above, deadline = data.draw(cases(motion_graphs(longest=40)))

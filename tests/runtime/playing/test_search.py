@@ -32,7 +32,7 @@ def check(graph, start, targets, allowed, soonest) -> None:
     assert (expected.n_frames, expected.cost, expected.target) == found
 
 
-@settings(max_examples=200)
+@settings(max_examples=4 * settings().max_examples)
 @given(data=st.data())
 def test_no_walk_over_all_frames_is_sooner_or_as_soon_and_cheaper(data, motion_graphs, soonest) -> None:
     graph = data.draw(motion_graphs(longest=14))
@@ -106,7 +106,7 @@ def test_a_path_enters_no_motion_that_is_not_allowed_but_its_targets(motion_grap
     assert find_path(graph, Position(0, 0), [2], allowed={1}).n_frames == 11
 
 
-@settings(max_examples=200)
+@settings(max_examples=4 * settings().max_examples)
 @given(data=st.data())
 def test_all_paths_are_the_soonest_to_each_transition_into_a_target_in_order(data, motion_graphs, soonest) -> None:
     graph = data.draw(motion_graphs(longest=14))

@@ -4,7 +4,7 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from mlmg_runtime import rotations
@@ -54,7 +54,6 @@ def about_the_vertical(turn: FloatArray) -> FloatArray:
     return np.degrees(np.arccos(np.clip(rotations.rotate(turn, VERTICAL)[..., 1], -1.0, 1.0)))
 
 
-@settings(max_examples=60)
 @given(seed=SEEDS)
 def test_inside_clips_played_at_their_own_speed_frames_are_the_sources(seed: int, play, small_library: Library) -> None:
     timeline = play(seed)
@@ -77,7 +76,6 @@ def test_inside_clips_played_at_their_own_speed_frames_are_the_sources(seed: int
         np.testing.assert_allclose(moved, moved[[0]] * (1.0, 0.0, 1.0) + np.zeros_like(moved), atol=1e-6)
 
 
-@settings(max_examples=60)
 @given(seed=SEEDS)
 def test_inside_clips_of_a_part_its_joints_are_the_sources(seed: int, play, small_library: Library) -> None:
     timeline = play(seed)
@@ -96,7 +94,6 @@ def test_inside_clips_of_a_part_its_joints_are_the_sources(seed: int, play, smal
                 assert np.where(overlaid[frames][:, joints], 0.0, apart).max(initial=0.0) < 1e-4
 
 
-@settings(max_examples=60)
 @given(seed=SEEDS)
 def test_all_that_a_part_does_not_play_is_bit_for_bit_its_parents(seed: int, play, small_library: Library) -> None:
     timeline = play(seed)
@@ -112,7 +109,6 @@ def test_all_that_a_part_does_not_play_is_bit_for_bit_its_parents(seed: int, pla
         np.testing.assert_array_equal(with_part.rotations[~overlaid], without.rotations[~overlaid])
 
 
-@settings(max_examples=30)
 @given(seed=SEEDS)
 def test_the_same_timeline_gives_the_same_bytes(seed: int, play, small_library: Library) -> None:
     timeline = play(seed)
@@ -121,7 +117,6 @@ def test_the_same_timeline_gives_the_same_bytes(seed: int, play, small_library: 
     assert first.positions.tobytes() == second.positions.tobytes()
 
 
-@settings(max_examples=60)
 @given(seed=SEEDS)
 def test_no_joint_goes_farther_than_its_clips_and_the_gap_of_its_transition(
     seed: int, play, small_library: Library

@@ -1,6 +1,6 @@
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from mlmg_runtime.view.solid import cut, solid
@@ -33,7 +33,6 @@ def slow_cut(way, ends, radii):
     b=st.tuples(numbers, numbers, st.floats(-3.0, -2.0)),
     radii=st.tuples(st.floats(0.02, 0.2), st.floats(0.02, 0.2)),
 )
-@settings(max_examples=60, deadline=None)
 def test_a_capsule_is_cut_where_the_nearest_of_many_balls_is(a, b, radii):
     ends, radii = np.array([a, b]), np.array(radii)
     ways = rays(6)
