@@ -75,6 +75,17 @@ def parameter_kinds(statement: Sequence[Token], definitions: Definitions) -> Map
     return kinds
 
 
+def names_of_definition(statement: Sequence[Token], definitions: Definitions) -> frozenset[str]:
+    """Return what the definition that tokens are the beginning of gives a meaning in it, in NFC.
+
+    That is its own name, which it cannot use, and its parameters.
+    """
+    if [token.type for token in statement[:1]] != ["LET"] or len(statement) < 2 or statement[1].type not in NAMES:
+        return frozenset()
+    own = name_from_token(statement[1]).text
+    return frozenset(map(normal, (own, *parameter_kinds(statement, definitions))))
+
+
 def used_definition(before: Sequence[Token], definitions: Definitions) -> syntax.Let | None:
     """Return the definition whose name stands last, unless it is being defined there."""
     if not before or before[-1].type not in NAMES or (len(before) > 1 and before[-2].type == "LET"):

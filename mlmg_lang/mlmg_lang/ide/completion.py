@@ -8,11 +8,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from itertools import chain
+from itertools import chain, islice
 from typing import Final
 
 from mlmg_lang.definitions.gather import Definitions, Kind
-from mlmg_lang.ide.arguments import argument_at, parameter_kinds
+from mlmg_lang.ide.arguments import argument_at, names_of_definition, parameter_kinds
 from mlmg_lang.ide.cursor import Cursor
 from mlmg_lang.ide.fuzzy import matching
 from mlmg_lang.ide.offers import Completion, Offers, What, best_fit
@@ -33,6 +33,8 @@ _STATEMENT_WORDS: Final = frozenset({"WAIT", "END", "REPEAT", "CHOOSE", "LET", "
 _MOST_TRIED: Final = 50
 """So many definitions are tried in a place, at up to a third of a millisecond each; others are offered untried."""
 _TOP_LEVEL: Final = frozenset({"LET", "USE"})
+_BEFORE_OWN: Final = 10
+"""So many names of the library stand before the script's own where nothing has been written yet."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,7 +85,12 @@ def complete(cursor: Cursor | None, offset: int, around: Surroundings) -> Offere
     """
     if cursor is None:
         return Offered(Span(offset, offset), ())
-    completer = _Completer(around, cursor, Reach(around.names, around.definitions, around.state))
+    completer = _Completer(
+        around,
+        cursor,
+        Reach(around.names, around.definitions, around.state),
+        names_of_definition(cursor.before, around.definitions),
+    )
     found = chain.from_iterable(completer.all())
     return Offered(cursor.span, tuple(_in_quotes(found) if cursor.quoted else found), completer.fits)
 
@@ -98,11 +105,17 @@ def _in_quotes(found: Iterable[Completion]) -> Iterator[Completion]:
 
 @dataclass(frozen=True, slots=True)
 class _Completer:
-    """Finds what could be written, in stretches: there may be thousands of names, kept as they are offered."""
+    """Finds what could be written, in stretches: there may be thousands of names, kept as they are offered.
+
+    Attributes
+    ----------
+    own : what the definition that is being written gives a meaning in it: see `names_of_definition`.
+    """
 
     around: Surroundings
     cursor: Cursor
     reach: Reach
+    own: frozenset[str]
     fits: dict[str, Mapping[str, float]] = field(default_factory=dict)
 
     def all(self) -> Iterator[Iterable[Completion]]:
@@ -197,22 +210,31 @@ class _Completer:
 
     def _below(self, before: Sequence[Token], rooms: Sequence[Below]) -> Iterator[Iterable[Completion]]:
         """Yield what may stand behind a `with`."""
-        yield from self._unqualified(rooms, set())
-        yield self._parameters_of(before, Kind.MOTION)
-        yield self._definitions(before)
+        yield from self._with_own(self._unqualified(rooms, set()), before)
         yield (_graph(graph, _part_says(graph, self.around.names)) for graph, _ in rooms)
         yield (_graph(SUB, ": ".join(("the part below", *[graph for graph, _ in rooms[:1]]))),)
 
     def _anywhere(self, before: Sequence[Token]) -> Iterator[Iterable[Completion]]:
         """Yield what a command may begin with: what the whole body does first, then what parts may do as it is."""
         names = self.around.names
-        yield self._on(names.root, self.reach.playing(names.root))
-        yield self._parameters_of(before, Kind.MOTION)
-        yield self._definitions(before)
+        yield from self._with_own([self._on(names.root, self.reach.playing(names.root))], before)
         allowed = [graph for graph in names.all_levels()[1:] if self.reach.playing(graph) & names.motion_set(graph)]
         yield (_graph(graph, _part_says(graph, names)) for graph in allowed)
         rooms = [(graph, self.reach.playing(graph)) for graph in allowed]
         yield from self._unqualified(rooms, set(names.spellings_on(names.root)))
+
+    def _with_own(
+        self, library: Iterable[Iterable[Completion]], before: Sequence[Token]
+    ) -> Iterator[Iterable[Completion]]:
+        """Yield names of the library with the script's own: where a word is begun, these first, so that none is lost.
+
+        Else the best of the library come first.
+        """
+        found = chain.from_iterable(library)
+        yield tuple(islice(found, 0 if self.cursor.word else _BEFORE_OWN))
+        yield self._parameters_of(before, Kind.MOTION)
+        yield self._definitions(before)
+        yield found
 
     def _unqualified(self, rooms: Sequence[Below], known: set[str]) -> Iterator[Iterable[Completion]]:
         """Yield the names on some graphs that mean these without a graph's name: each on the first that has it."""
@@ -225,9 +247,11 @@ class _Completer:
                 known |= {one.name for one in own}
 
     def _on(self, graph: str, above: Collection[str]) -> Sequence[Completion]:
-        """Return the names on a graph, and note how well its motions fit."""
+        """Return the names on a graph that mean what they mean there, and note how well its motions fit."""
         found, self.fits[graph] = self.around.offers.on(graph, above)
-        return found
+        definitions = self.around.definitions
+        hidden = self.around.names.spelt(graph, {*definitions.lets, *definitions.unread, *self.own})
+        return [one for one in found if one.name not in hidden] if hidden else found
 
     def _parameters_of(self, before: Sequence[Token], kind: Kind) -> Iterator[Completion]:
         """Yield the parameters of the definition that is being written, of a kind or of one that is not known."""
@@ -242,7 +266,7 @@ class _Completer:
         n_tried = 0
         for name, let in definitions.lets.items():
             signature = definitions.signatures.get(name)
-            if name not in meant or (before and signature is not None and signature.lasts):
+            if name not in meant or name in self.own or (before and signature is not None and signature.lasts):
                 continue  # What says how long is a whole statement.
             n_tried += let.parameters is None
             if n_tried <= _MOST_TRIED and not self.reach.takes(own, name):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable
-from itertools import compress, tee
+from itertools import compress
 from typing import TypeVar
 
 T = TypeVar("T")
@@ -13,33 +13,36 @@ T = TypeVar("T")
 def matching(word: str, offered: Iterable[T], name: Callable[[T], str], most: int | None = None) -> list[T]:
     """Return what has the letters of a word in its name, in their order; case does not count.
 
-    First come names that begin with the word, then those in which a part begins with it, then those that hold it, then
-    the others; what is alike in that keeps its order.
+    First come names that are the word, then those that begin with it, then those in which a part does, then those that
+    hold it, then the others; what is alike in that keeps its order.
 
     Parameters
     ----------
-    most : where more than so many begin with the word, all further ones are left out.
+    most : where more than so many begin with the word and go on, all further ones are left out.
     """
     everything = list(offered)
     if not word:
         return everything
     wanted = word.casefold()
-    names, again = tee(map(str.casefold, map(name, everything)))
+    names = list(map(str.casefold, map(name, everything)))
+    same = list(compress(everything, map(wanted.__eq__, names)))
     begins: list[T] = []
     part_begins: list[T] = []
     holds: list[T] = []
     others: list[T] = []
-    for one, folded in compress(zip(everything, names, strict=False), map(_letters(wanted).match, again)):
+    for one, folded in compress(zip(everything, names, strict=True), map(_letters(wanted).match, names)):
         at = folded.find(wanted)
+        if folded == wanted:
+            continue
         if at == 0:
             begins.append(one)
             if most is not None and len(begins) > most:
-                return begins
+                return same + begins
         elif at < 0:
             others.append(one)
         else:
             (holds if folded[at - 1].isalnum() else part_begins).append(one)
-    return begins + part_begins + holds + others
+    return same + begins + part_begins + holds + others
 
 
 def _letters(word: str) -> re.Pattern[str]:

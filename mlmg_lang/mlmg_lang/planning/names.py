@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 from functools import cached_property
@@ -192,6 +192,11 @@ class Names:
     def spellings_on(self, graph: str) -> tuple[str, ...]:
         """Return the tags on a graph, then its motions."""
         return self._names[graph].spellings
+
+    def spelt(self, graph: str, words: Collection[str]) -> frozenset[str]:
+        """Return the names on a graph, as the library has them, that some words in NFC spell exactly."""
+        exact = self._names[graph].exact
+        return frozenset(exact[word].name for word in words if word in exact)
 
     def nearest(self, written: str, graphs: Iterable[str]) -> tuple[str, ...]:
         """Return the names on some graphs that look most like a written one, the most like first.

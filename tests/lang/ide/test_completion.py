@@ -211,6 +211,52 @@ def test_below_a_parameter_all_parts_are_offered(texts: Texts) -> None:
     assert {"TALK", "Upper-Body"} <= set(texts("let G(x) = x with ¦"))
 
 
+@pytest.mark.parametrize(
+    ("text", "defined", "hidden"),
+    [
+        ("¦", "let WALK = IDLE", {"WALK"}),
+        ("¦", "let Walk = IDLE\nlet walk_01 = IDLE", set()),
+        ("¦", "let WALK = \nIDLE", {"WALK"}),
+        ("Upper-Body ¦", "let TALK = WAVE", {"TALK"}),
+        ("WALK with Upper-Body (¦", "let TALK = WAVE", {"TALK"}),
+        ("WALK with ¦", "let Talk_01 = WAVE", {"Talk_01"}),
+        ("let G(WALK, IDLE = WALK) = ¦", "", {"WALK", "IDLE"}),
+        ("let G(WALK, IDLE = ¦", "", set()),
+        ("let WALK = ¦", "", {"WALK"}),
+    ],
+)
+def test_names_of_the_library_that_mean_something_else_in_the_script_are_not_offered(
+    text: str, defined: str, hidden: set[str], offers: Offers
+) -> None:
+    found = {one.name for one in offers(text, defined=defined) if one.graph is not None}
+    assert found == {one.name for one in offers(text.replace("WALK = ¦", "X = ¦")) if one.graph is not None} - hidden
+
+
+def test_a_name_that_is_spelt_in_two_ways_is_hidden_in_both(offers: Offers, catalog: Any) -> None:
+    composed, apart = "caf\N{LATIN SMALL LETTER E WITH ACUTE}", "cafe\N{COMBINING ACUTE ACCENT}"
+    library = catalog({"Body": {apart: (), "other": ()}}, {}, start="other")
+    found = offers("¦", library, playing="other", defined=f"let {composed} = other")
+    assert [one.name for one in found if one.graph] == ["other"]
+
+
+def test_a_definition_is_not_offered_in_itself_nor_where_a_parameter_is_called_so(offers: Offers) -> None:
+    defined = "let A = WALK\nlet B = WALK"
+    for text, known in (("let A = ¦", {"B"}), ("let G(B) = ¦", {"A"}), ("let C = ¦", {"A", "B"})):
+        assert {one.name for one in offers(text, defined=defined) if one.what is What.DEFINITION} == known
+
+
+def test_own_names_stand_behind_the_best_ten_of_the_library_and_first_where_a_word_is_begun(
+    texts: Texts, catalog: Any
+) -> None:
+    clips = [f"clip_{number:02}" for number in range(30)]
+    library = catalog({"Body": dict.fromkeys(clips, ("ALL",)), "Arm": {"clip_00": ()}}, {"Arm": "Body"}, start=clips[0])
+    for text, own in (("¦", ["cut"]), ("let G(c) = ¦", ["c", "cut"])):
+        found = texts(text, library, playing=clips[0], defined="let cut = clip_03")
+        assert found[: 10 + len(own)] == ["ALL", *clips[:9], *own]
+        found = texts(text.replace("¦", "c¦"), library, playing=clips[0], defined="let cut = clip_03")
+        assert found[: len(own)] == own
+
+
 def test_in_braces_there_is_no_let(texts: Texts) -> None:
     inside = texts("repeat 2 {\n¦")
     assert {"WALK", "wait", "choose"} <= set(inside)

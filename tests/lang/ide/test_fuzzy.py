@@ -9,6 +9,12 @@ def test_case_does_not_count_and_what_begins_so_comes_first() -> None:
     assert matching("wa", NAMES, str)[:3] == ["Walk_01", "WALK", "WAVE_HAND"]
 
 
+def test_what_is_the_word_comes_before_what_begins_with_it_however_many_do() -> None:
+    names = ["RUN_1", "RUN_2", "RUNNING", "run", "RUN"]
+    assert matching("run", names, str) == ["run", "RUN", "RUN_1", "RUN_2", "RUNNING"]
+    assert matching("run", names, str, 1) == ["run", "RUN", "RUN_1", "RUN_2"]
+
+
 def test_a_part_that_begins_so_comes_before_what_holds_it_before_what_has_its_letters() -> None:
     assert matching("hand", ["Shorthand", "WAVE_HAND", "Hello_and", "HANDS"], str) == [
         "HANDS",

@@ -21,10 +21,10 @@ def found(catalog, in_order):
     library = catalog(on, {"Upper-Body": "Whole Body"}, start="wave hand")
     names = Names(library)
 
-    def ask(text: str) -> tuple[Matches, list[tuple[str, str]]]:
+    def ask(text: str, defined: str = 'let "my own" = wave') -> tuple[Matches, list[tuple[str, str]]]:
         before, _, after = text.partition("¦")
         source = Source(before + after)
-        definitions = analyse(Source('let "my own" = wave'), library).definitions
+        definitions = analyse(Source(defined), library).definitions
         around = Surroundings(names, definitions, flow.begin(names, "wave hand"), Offers(names, in_order(names)))
         meant = matches(source, tokenize(source), len(before), around, MOST)
         return meant, [(source.slice(meant.offered.span), one.text) for one in meant.found]
@@ -67,3 +67,10 @@ def test_words_of_the_language_come_before_names_that_a_row_may_be_of(found):
     # With the next letter it may be a name.
     assert not meant.is_final
     assert found("wav¦")[0].is_final
+
+
+def test_of_names_that_are_as_like_the_word_the_script_s_own_come_first(found):
+    defined = "let waving = wave\nlet w = wave\nlet up = wave"
+    assert [name for _, name in found("w¦", defined)[1]][:3] == ["w", "waving", '"wave hand"']
+    assert [name for _, name in found("wave¦", defined)[1]] == ["wave", '"wave hand"']
+    assert [name for _, name in found("UP¦", defined)[1]] == ["up", "Upper-Body", "GO_UP"]
