@@ -243,6 +243,10 @@ class Documents:
         text = self.text_of(str(path))
         return list(dict.fromkeys(user for user, file in self._uses(path) if file.text != text))
 
+    def incomplete(self) -> list[Document]:
+        """Return the open texts that use a file which was not there, or could not be read."""
+        return [one for one in self.all() if one.analysis is not None and not one.analysis.definitions.complete]
+
     def _uses(self, path: Path) -> Iterator[tuple[Document, Source]]:
         """Yield the open texts that use a file, each with what it has read of it."""
         real = os.path.realpath(path)

@@ -47,7 +47,7 @@ class LibraryFinder:
         self._documents = documents
         self._background = background
         self._found = found
-        self._said: set[str] = set()
+        self._said: dict[str, str] = {}
 
     def look(self, document: Document) -> None:
         """Begin to look for the library of a text; what was begun before stops."""
@@ -67,11 +67,12 @@ class LibraryFinder:
             if shelved is None:
                 self._background.begin(self._tell_of_none(document))
             else:
-                self._said.clear()
+                self._said = {message: uri for message, uri in self._said.items() if uri != document.uri}
         except Exception as error:  # whatever it is, the text must not be waited for any longer
             shelved = None
             why = error if isinstance(error, MlmgError | OSError) else repr(error)
-            self._say_once(types.MessageType.Warning, f"The library cannot be used, so names are not checked: {why}")
+            message = f"The library cannot be used, so names are not checked: {why}"
+            self._say_once(types.MessageType.Warning, message, document)
         finally:
             bar.end()
         self._found(document, shelved)
@@ -79,17 +80,18 @@ class LibraryFinder:
     async def _tell_of_none(self, document: Document) -> None:
         folder = self._workspace.folder_of(document)
         if not self._documents.client.offers or document.path is None or (folder / SETTINGS).exists():
-            self._say_once(types.MessageType.Info, _NO_LIBRARY)
+            self._say_once(types.MessageType.Info, _NO_LIBRARY, document)
         elif _NO_LIBRARY not in self._said:
-            self._said.add(_NO_LIBRARY)
+            self._said[_NO_LIBRARY] = document.uri
             try:
                 if await offer_demo(self._server, _NO_LIBRARY, folder):
                     self.look_for_all()
             except OSError as error:
-                self._say_once(types.MessageType.Warning, f"{folder / SETTINGS} cannot be written: {error.strerror}")
+                message = f"{folder / SETTINGS} cannot be written: {error.strerror}"
+                self._say_once(types.MessageType.Warning, message, document)
 
-    def _say_once(self, kind: types.MessageType, message: str) -> None:
-        """Say something that has not been said since a library was last found."""
+    def _say_once(self, kind: types.MessageType, message: str, document: Document) -> None:
+        """Say something that has not been said before, unless the text that it was said of has had a library since."""
         if message not in self._said:
-            self._said.add(message)
+            self._said[message] = document.uri
             self._server.window_show_message(types.ShowMessageParams(kind, message))

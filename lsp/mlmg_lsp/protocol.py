@@ -80,6 +80,9 @@ class Protocol(LanguageServerProtocol):
         if raw.get("error", ...) is None:  # as some clients say that there is none
             del raw["error"]
         number = raw.get("id")
+        if self._shutdown and raw.get("method") not in (None, types.EXIT):
+            self._refuse(number, JsonRpcInvalidRequest("`shutdown` has come before"))
+            return
         try:
             self.handle_message(self.structure_message(raw))
         except Exception as error:

@@ -116,8 +116,8 @@ class ClientSession:
         document = self.documents.open(params.text_document)
         self._telling.opened(document.name, document.uri)
         self._finder.look(document)
-        if document.path is not None:
-            self._look_again(self.documents.outdated_users(document.path))
+        outdated = [] if document.path is None else self.documents.outdated_users(document.path)
+        self._look_again([*outdated, *self.documents.incomplete()])
 
     def changed(self, params: types.DidChangeTextDocumentParams) -> None:
         """Edit a text, and look again at those that use it."""
@@ -127,10 +127,11 @@ class ClientSession:
             self._used_changed(document.path)
 
     def saved(self, params: types.DidSaveTextDocumentParams) -> None:
-        """Look whether a library is another by now: not all clients tell of that."""
+        """Look whether a library is another, or a file is there by now: not all clients tell of that."""
         document = self.documents.get(params.text_document.uri)
         if document is not None:
             self._finder.look(document)
+        self._look_again(self.documents.incomplete())
 
     def closed(self, params: types.DidCloseTextDocumentParams) -> None:
         """Let go of a text, with what was said of it."""
@@ -143,6 +144,7 @@ class ClientSession:
         path = path_of(uri)
         if path is not None:
             self._used_changed(path)
+        self._look_again(self.documents.incomplete())
 
     # --- settings, files and folders ---
 
@@ -161,8 +163,7 @@ class ClientSession:
         for path in paths:
             if path.suffix == ".ms":
                 self._used_changed(path)
-        if any(change.type == types.FileChangeType.Created for change in params.changes):
-            self._found_missing()
+        self._look_again(self.documents.incomplete())
 
     def folders_changed(self, params: types.DidChangeWorkspaceFoldersParams) -> None:
         """Open and close folders."""
@@ -212,13 +213,6 @@ class ClientSession:
             self.documents.analyse(document, afresh=True)
         if users:
             self._asker.refresh()
-
-    def _found_missing(self) -> None:
-        """Look again at texts that use a file which was not there."""
-        for document in self.documents.all():
-            if document.analysis is not None and not document.analysis.definitions.complete:
-                self.documents.analyse(document, afresh=True)
-        self._asker.refresh()
 
     def _get_hints(self, snapshot: Snapshot, outlook: Outlook) -> None:
         from mlmg_lsp.features import inlay_hint

@@ -41,14 +41,17 @@ class Settings:
     hints: frozenset[str] = HINTS
 
     def with_those_of(self, client: Any) -> Settings:
-        """Return settings with those of a client, if it has sent any; what is not as it should be is passed over."""
+        """Return settings with those that a client has sent in the place of its others.
+
+        What it does not name stays; what is not as it should be counts as if it were empty.
+        """
         own = client.get("mlmg", client) if isinstance(client, Mapping) else {}
         if not isinstance(own, Mapping):
             return self
-        library, allowed = own.get("library"), own.get("allowUse")
+        library, allowed = own.get("library", self.library), own.get("allowUse", list(self.allowed))
         folders = tuple(map(str, allowed)) if isinstance(allowed, list) else ()
         named = library if isinstance(library, str) and library else None
-        return Settings(named, folders, hints=_hints(own))
+        return Settings(named, folders, hints=_hints(own) if "inlayHints" in own else self.hints)
 
     def over(self, others: Settings) -> Settings:
         """Return settings in which these come before others."""
@@ -74,12 +77,14 @@ class Workspace:
         """Take the settings of the command, and the libraries that are open."""
         self.given = given
         self.settings = given
+        self._client = Settings()
         self.shelf = shelf
         self._roots: dict[str, Path] = {}
 
     def set_client(self, settings: Any) -> None:
         """Take the settings of the client."""
-        self.settings = self.given.over(Settings().with_those_of(settings))
+        self._client = self._client.with_those_of(settings)
+        self.settings = self.given.over(self._client)
 
     def add(self, uri: str) -> None:
         """Open a folder."""

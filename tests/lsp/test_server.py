@@ -359,7 +359,6 @@ def test_a_client_that_asks_for_diagnostics_is_told_to_ask_again(start, tmp_path
     settings.write_text(f'library = "{demo_library.path.as_posix()}"', encoding="utf-8")
     client.notify("workspace/didChangeWatchedFiles", {"changes": [{"uri": settings.as_uri(), "type": 1}]})
     client.wait(lambda one: one.get("method") == "workspace/diagnostic/refresh")
-    client.wait(lambda one: one.get("method") == "workspace/diagnostic/refresh")
     assert [one["code"] for one in client.ask("textDocument/diagnostic", asked)["items"]] == ["MS021"]
 
 
@@ -420,3 +419,13 @@ def test_a_text_is_checked_whose_address_has_half_a_character(start, uri):
     client.initialize()
     client.open(uri, "WLAK\n")
     assert [one["code"] for one in client.diagnostics(uri)] == ["MS021"]
+
+
+def test_what_is_asked_after_the_end_was_announced_is_refused(start):
+    client = start("--stdio")
+    client.initialize()
+    client.ask("shutdown")
+    for method in ("shutdown", "textDocument/hover", "workspace/executeCommand"):
+        assert client.outcome(client.begin(method, {}))["error"]["code"] == -32600
+    client.notify("exit")
+    assert client.process.wait(60) == 0

@@ -200,3 +200,27 @@ def test_a_used_file_that_is_opened_as_it_is_changes_nothing(start, tmp_path, us
     client.notify("exit")
     told = [one["params"]["uri"] for one in client.rest() if one.get("method") == "textDocument/publishDiagnostics"]
     assert user not in told
+
+
+@pytest.mark.parametrize("way", ["opened", "saved", "closed", "changed"])
+def test_a_file_that_was_missing_is_found_as_soon_as_the_client_has_to_do_with_it(start, tmp_path, used, way):
+    used.write_bytes(b"let stroll = WALK # \xff\n")
+    client, user = begun(start, PUSHED), (tmp_path / "user.ms").as_uri()
+    client.open(user, 'use "moves/used.ms"\nstroll\n')
+    assert [one["code"] for one in client.diagnostics(user)] == ["MS058"]
+    if way == "closed":
+        client.open(used.as_uri(), RIGHT)
+        client.diagnostics(user)
+    used.write_text(RIGHT, encoding="utf-8")
+    document = {"textDocument": {"uri": used.as_uri()}}
+    match way:
+        case "opened":
+            client.open(used.as_uri(), RIGHT)
+        case "saved":
+            client.notify("textDocument/didSave", {"textDocument": {"uri": user}})
+        case "closed":
+            client.notify("textDocument/didClose", document)
+        case "changed":
+            changed(client, used, RIGHT)
+    while found := client.diagnostics(user):
+        assert [one["code"] for one in found] == ["MS058"]
