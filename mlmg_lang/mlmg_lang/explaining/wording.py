@@ -10,8 +10,8 @@ from mlmg_lang.spelling import joined
 
 def seconds(estimate: Estimate) -> str:
     """Return an estimate in words: on average, and between what it lies."""
-    mean, least, most = (f"{number:.1f}" for number in (estimate.mean, estimate.least, estimate.most))
-    return f"{mean} s" if least == most else f"about {mean} s ({least} to {most})"
+    mean = f"{estimate.mean:.1f} s"
+    return mean if estimate.is_exact else f"about {mean} ({estimate.least:.1f} to {estimate.most:.1f})"
 
 
 def share(chance: float) -> str:

@@ -34,7 +34,7 @@ class Foreseen:
 
 def foreseen(plan: ResolvedPlan, expected: Forecast, names: Names) -> Foreseen:
     """Return how the commands of a plan will probably go, in place of playing it."""
-    return Foreseen(dict(_Clock(expected, names).goings(plan.statements, 0.0)))
+    return Foreseen(dict(_Clock(expected, names).goings(plan.statements, NO_TIME)))
 
 
 @dataclass(frozen=True)
@@ -101,26 +101,26 @@ class _Clock:
     expected: Forecast
     names: Names
 
-    def goings(self, statements: Iterable[resolved.Statement], now_s: float) -> Iterator[tuple[Span, Going]]:
+    def goings(self, statements: Iterable[resolved.Statement], now: Estimate) -> Iterator[tuple[Span, Going]]:
         """Yield how the commands in a row go that begin now."""
         for statement in statements:
             if isinstance(statement, Command):
                 outcome = self.expected.outcomes[statement.span]
-                yield statement.span, self._going(statement, outcome, now_s + outcome.arrives.mean)
+                yield statement.span, self._going(statement, outcome, now + outcome.arrives)
             elif isinstance(statement, Repeat) and statement.count > 0:
-                yield from self.goings(statement.body, now_s)
+                yield from self.goings(statement.body, now)
             elif isinstance(statement, Choose):
                 for branch in statement.branches:
-                    yield from self.goings(branch.body, now_s)
-            now_s += self._takes(statement).mean
+                    yield from self.goings(branch.body, now)
+            now += self._takes(statement)
 
-    def _going(self, command: Command, outcome: Outcome, arrives_s: float) -> Going:
+    def _going(self, command: Command, outcome: Outcome, arrives: Estimate) -> Going:
         chances: defaultdict[tuple[tuple[str, str], ...], float] = defaultdict(float)
         for course in outcome.courses:
             driving = ((layer.graph, driver(course.world, layer.graph, self.names)[1]) for layer in command.layers)
             chances[tuple((graph, playing.motion) for graph, playing in driving)] += course.chance
         motions = max(chances, key=lambda one: chances[one], default=())
-        return Going(motions, arrives_s, sure=len(chances) == 1)
+        return Going(motions, len(chances) == 1, arrives)
 
     def _takes(self, statement: resolved.Statement) -> Estimate:
         """Return how long a statement takes, from its beginning to that of the next."""

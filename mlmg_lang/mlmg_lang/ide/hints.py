@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import Protocol
+from math import ceil, floor
+from typing import Final, Protocol
 
 from mlmg_lang.analysis import Analysis
 from mlmg_lang.blocks import Statement
@@ -13,6 +14,7 @@ from mlmg_lang.catalog import Catalog
 from mlmg_lang.definitions.gather import Definitions
 from mlmg_lang.parsing import syntax
 from mlmg_lang.parsing.amounts import UNITS, seconds_from_quantity, spelled, unit_of
+from mlmg_lang.planning.estimate import Estimate
 from mlmg_lang.source import Span
 from mlmg_lang.spelling import normal
 
@@ -27,6 +29,8 @@ class Kind(StrEnum):
 
 
 ALL = frozenset(Kind)
+_NEAR_S: Final = 1.0
+"""So far off a time may be at most that is told as one, with `~`."""
 _OF_COMMANDS = frozenset({Kind.MOTIONS, Kind.ARRIVALS})
 
 
@@ -54,13 +58,13 @@ class Going:
     Attributes
     ----------
     motions : by graph, the highest first, what it takes.
-    arrives_s : from the beginning of the script until all parts have arrived; None if that is not known.
-    sure : whether it is so in all cases that may come to pass.
+    sure : whether it takes them in all cases that may come to pass.
+    arrives : from the beginning of the script until all parts have arrived; None if that is not known.
     """
 
     motions: tuple[tuple[str, str], ...]
-    arrives_s: float | None
     sure: bool
+    arrives: Estimate | None
 
 
 class Outlook(Protocol):
@@ -138,10 +142,8 @@ class _Hinter:
         if not going.sure or not all(motion in written for _, motion in going.motions):
             label = unsure + " with ".join(motion for _, motion in going.motions)
             yield Hint(end, label, Kind.MOTIONS, False, f"{likely}{', '.join(lines)}")
-        if going.arrives_s is not None:
-            when = f"at {spelled(round(going.arrives_s, 1)) or '0'} sec"
-            says = f"{likely}all parts have arrived {when} from the beginning"
-            yield Hint(end, unsure + when, Kind.ARRIVALS, False, says)
+        if going.arrives is not None:
+            yield _arrival(going.arrives, end)
 
     def written(self, item: syntax.Item) -> Iterator[Hint]:
         """Yield what is meant by what is written."""
@@ -178,6 +180,21 @@ class _Hinter:
                 name = parameter.name.text
                 explanation = f"the parameter `{name}` of `{let.name.text}`"
                 yield Hint(argument.span.start + self.further, f"{name} =", Kind.PARAMETERS, True, explanation)
+
+
+def _arrival(arrives: Estimate, end: int) -> Hint:
+    """Return when a command arrives; where its average is far from what may be, only between what that lies."""
+    earliest, mean, latest = (
+        f"{number:.1f}".removesuffix(".0") for number in (arrives.least, arrives.mean, arrives.most)
+    )
+    if arrives.is_exact:
+        label, when = f"at {mean} sec", f"arrived at {mean} sec"
+    elif arrives.mean - arrives.least <= _NEAR_S and arrives.most - arrives.mean <= _NEAR_S:
+        label, when = f"~ at {mean} sec", f"probably arrived at about {mean} sec ({earliest} to {latest})"
+    else:
+        label = f"~ at {floor(arrives.least)} to {ceil(arrives.most)} sec"
+        when = f"probably arrived between {earliest} and {latest} sec"
+    return Hint(end, label, Kind.ARRIVALS, False, f"all parts have {when} from the beginning")
 
 
 def _says(value: syntax.Motion | syntax.Quantity, name: syntax.Name) -> bool:

@@ -17,6 +17,11 @@ class Estimate:
     least: float
     most: float
 
+    @property
+    def is_exact(self) -> bool:
+        """Return whether it takes the same in all cases, in tenths of a second, as it is told."""
+        return f"{self.least:.1f}" == f"{self.most:.1f}"
+
     def __add__(self, other: Estimate) -> Estimate:
         """Return how long the one and then the other takes."""
         return Estimate(self.mean + other.mean, self.least + other.least, self.most + other.most)

@@ -49,7 +49,6 @@ class OneSecond:
             "Idle_01\nrepeat 3 { Walk_01 for 2 sec; Talk_01 }\nIdle_01",
             [*zip(("Idle_01", "Walk_01", "Talk_01", "Idle_01"), (0, 1, 4, 13), strict=True)],
         ),
-        ("Idle_01\nchoose { Walk_01 for 2 sec | }\nTalk_01", [("Idle_01", 0), ("Walk_01", 1), ("Talk_01", 2.5)]),
         ("Idle_01\nWalk_01 with Upper-Body Talk_01", [("Idle_01", 0), ("Walk_01 Talk_01", 2)]),
     ],
 )
@@ -59,10 +58,34 @@ def test_commands_arrive_one_after_the_other(text: str, expected: list[tuple[str
     names = Names(reference)
     told = foreseen(plan, forecast(plan, names, OneSecond()), names)
     goings = [told.goings[span] for span in sorted(told.goings)]
-    assert [(" ".join(motion for _, motion in one.motions), one.arrives_s) for one in goings] == [
-        (motions, pytest.approx(seconds)) for motions, seconds in expected
+    assert [(" ".join(motion for _, motion in one.motions), one.arrives) for one in goings] == [
+        (motions, exactly(seconds)) for motions, seconds in expected
     ]
     assert all(one.sure for one in goings)
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("Idle_01\nchoose { wait 20 sec | wait 1 sec }\nWalk_01", {"Walk_01": (11.5, 2, 21)}),
+        ("Idle_01\nchoose { Walk_01 for 2 sec | }\nTalk_01", {"Walk_01 for 2 sec": (1, 1, 1), "Talk_01": (2.5, 1, 4)}),
+        ("Idle_01\nchoose { wait 2 sec | wait 2000 ms }\nWalk_01", {"Walk_01": (3, 3, 3)}),
+        (
+            "Idle_01\nrepeat 2 { choose { wait 1 sec | wait 2 sec }; Walk_01; Talk_01 }\nIdle_02",
+            {"Walk_01": (2.5, 2, 3), "Talk_01": (3.5, 3, 4), "Idle_02": (8, 7, 9)},
+        ),
+    ],
+)
+def test_what_comes_after_chance_arrives_between_two_times(
+    text: str, expected: dict[str, tuple[float, float, float]], reference: Catalog
+) -> None:
+    plan = analyse(Source(text), reference).resolved
+    assert plan is not None
+    names = Names(reference)
+    told = foreseen(plan, forecast(plan, names, OneSecond()), names)
+    arrivals = {one: told.goings[place(text, one)].arrives for one in expected}
+    assert arrivals == {one: Estimate(*seconds) for one, seconds in expected.items()}
+    assert all(one.sure for one in told.goings.values())
 
 
 def test_what_depends_on_chance_is_not_sure(reference: Catalog) -> None:
@@ -81,8 +104,8 @@ def test_after_an_edit_it_is_still_known_how_the_commands_went_that_it_has_left_
     now = analyse_again(before, Source("Idle_01\n\nWalk_02 for 30 sec\nTalk_01\n"))
     left = Remembered(told, before.made).of(now.made)
     goings = {one: left.going(place(now.source.text, one)) for one in ("Idle_01", "Walk_02 for 30 sec", "Talk_01")}
-    arrivals = {one: None if going is None else going.arrives_s for one, going in goings.items()}
-    assert arrivals == {"Idle_01": 0, "Walk_02 for 30 sec": None, "Talk_01": 5}
+    arrivals = {one: None if going is None else going.arrives for one, going in goings.items()}
+    assert arrivals == {"Idle_01": exactly(0), "Walk_02 for 30 sec": None, "Talk_01": exactly(5)}
     assert left.going(Span(0, 3)) is None
     afresh = Remembered(told, before.made).of(analyse(now.source, reference).made)
     assert {one: afresh.going(place(now.source.text, one)) for one in goings} == goings

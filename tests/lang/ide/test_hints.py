@@ -10,6 +10,7 @@ from mlmg_lang.catalog import Catalog
 from mlmg_lang.front_end import Analysis, analyse, analyse_again
 from mlmg_lang.ide.hints import ALL, Going, Hint, Kind, Meanings, Outlook, goings, piece_hints
 from mlmg_lang.ide.touching import pieces_touching
+from mlmg_lang.planning.estimate import Estimate, exactly
 from mlmg_lang.source import Source, Span
 
 TEXTS = st.text(alphabet="let G(x)=for 2ms cycles\n;{}with", max_size=80)
@@ -71,8 +72,8 @@ def test_frames_are_not_spelled_out_where_nobody_knows_how_long_they_are() -> No
 
 
 def test_what_is_taken_and_when_it_arrives_stands_behind_a_command(reference: Catalog) -> None:
-    going = Going((("Full-Body", "Walk_01"), ("Upper-Body", "Talk_01")), 3.04, sure=True)
-    guess = Going((("Full-Body", "Idle_02"),), None, sure=False)
+    going = Going((("Full-Body", "Walk_01"), ("Upper-Body", "Talk_01")), True, exactly(3.04))
+    guess = Going((("Full-Body", "Idle_02"),), False, None)
     outlook = Said({5: going, 31: guess})
     text = "IDLE\nWALK with Upper-Body TALK\nIDLE"
     expected = "IDLE\nWALK with Upper-Body TALK<Walk_01 with Talk_01><at 3 sec>\nIDLE<~ Idle_02>"
@@ -85,14 +86,35 @@ def test_what_is_taken_and_when_it_arrives_stands_behind_a_command(reference: Ca
     ]
 
 
+@pytest.mark.parametrize(
+    ("arrives", "label", "explanation"),
+    [
+        (Estimate(3.0, 2.96, 3.04), "at 3 sec", "all parts have arrived at 3 sec"),
+        (
+            Estimate(12.1, 11.2, 12.3),
+            "~ at 12.1 sec",
+            "all parts have probably arrived at about 12.1 sec (11.2 to 12.3)",
+        ),
+        (Estimate(11.7, 1.7, 21.8), "~ at 1 to 22 sec", "all parts have probably arrived between 1.7 and 21.8 sec"),
+        (Estimate(3.1, 3.0, 5.0), "~ at 3 to 5 sec", "all parts have probably arrived between 3 and 5 sec"),
+    ],
+)
+def test_when_it_arrives_is_as_sure_as_it_is_said(
+    arrives: Estimate, label: str, explanation: str, reference: Catalog
+) -> None:
+    outlook = Said({0: Going((("Full-Body", "Walk_01"),), True, arrives)})
+    (hint,) = hints(analyse(Source("Walk_01"), reference), Span(0, 7), outlook)
+    assert (hint.label, hint.explanation) == (label, f"{explanation} from the beginning")
+
+
 def test_what_is_written_is_not_said_again(reference: Catalog) -> None:
-    going = Going((("Full-Body", "Walk_01"),), 2.0, sure=True)
+    going = Going((("Full-Body", "Walk_01"),), True, exactly(2.0))
     assert hinted("Walk_01 for 1 min", reference, Said({0: going})) == "Walk_01 for 1 min<= 60 sec><at 2 sec>"
 
 
 def test_each_kind_can_be_had_by_itself(reference: Catalog) -> None:
     text = GREET + "GREET(WALK, 1 min)"
-    outlook = Said({len(GREET): Going((("Full-Body", "Walk_01"),), 1.5, sure=True)})
+    outlook = Said({len(GREET): Going((("Full-Body", "Walk_01"),), True, exactly(1.5))})
     by_kind = {
         Kind.MOTIONS: "GREET(WALK, 1 min)<Walk_01>",
         Kind.ARRIVALS: "GREET(WALK, 1 min)<at 1.5 sec>",
