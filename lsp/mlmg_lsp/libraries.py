@@ -6,6 +6,7 @@ import asyncio
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeAlias
+from weakref import WeakValueDictionary
 
 from mlmg_lsp.work import off_loop
 
@@ -34,16 +35,17 @@ class Shelved:
 
 
 class Shelf:
-    """All libraries that are open."""
+    """All libraries that are open: those that somebody has, and the last that was asked for."""
 
     def __init__(self) -> None:
         """Begin with none."""
-        self._open: dict[Path, Shelved] = {}
+        self._open: WeakValueDictionary[Path, Shelved] = WeakValueDictionary()
+        self._last: Shelved | None = None
         self._opening: dict[Path, asyncio.Task[Shelved]] = {}
 
     def has(self, path: Path) -> bool:
         """Return whether a library is open, and its file still the same."""
-        return path in self._open and self._open[path].stamp == stamp_of(path)
+        return self._current(path) is not None
 
     async def get(self, path: Path) -> Shelved:
         """Return a library, which is opened if it is not open yet.
@@ -55,8 +57,10 @@ class Shelf:
         OSError
             If it cannot be opened.
         """
-        if self.has(path):
-            return self._open[path]
+        known = self._current(path)
+        if known is not None:
+            self._last = known
+            return known
         if path not in self._opening:
             self._opening[path] = asyncio.ensure_future(off_loop(lambda: _opened(path), is_whole=True))
         try:
@@ -65,8 +69,12 @@ class Shelf:
         finally:
             if path in self._opening and self._opening[path].done():
                 del self._opening[path]
-        self._open[path] = shelved
+        self._open[path] = self._last = shelved
         return shelved
+
+    def _current(self, path: Path) -> Shelved | None:
+        shelved = self._open.get(path)
+        return shelved if shelved is not None and shelved.stamp == stamp_of(path) else None
 
 
 def stamp_of(path: Path) -> Stamp | None:

@@ -96,6 +96,17 @@ def test_a_library_that_is_replaced_goes_at_once_with_all_that_was_worked_out_of
         asyncio.run(replaced())
 
 
+def test_a_library_that_no_text_has_goes_unless_it_was_the_last(demo_library: Library, tmp_path: Path) -> None:
+    async def opened() -> list[bool]:
+        shelf = Shelf()
+        paths = [Path(shutil.copy(demo_library.path, tmp_path / f"{name}.mlmg")) for name in "ab"]
+        known = [ref(await shelf.get(path)) for path in paths]
+        gc.collect()
+        return [one() is not None for one in known] + [shelf.has(path) for path in paths]
+
+    assert asyncio.run(opened()) == [False, True] * 2
+
+
 async def asked(session: ClientSession) -> None:
     """Ask for what is kept from one answer to the next, and for what cannot be had."""
     snapshot = await session.snapshot(URI)
