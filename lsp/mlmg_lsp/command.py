@@ -45,10 +45,11 @@ def run(arguments: argparse.Namespace) -> int:
     """Serve until the client, or a signal, ends it; return 1 if the client left without saying so."""
     import logging
 
-    from mlmg_lsp import transports
+    from mlmg_lsp import pipes, sockets
     from mlmg_lsp.libraries import Shelf
     from mlmg_lsp.memory import give_back
     from mlmg_lsp.server import MotionScriptServer
+    from mlmg_lsp.transports import Server
     from mlmg_lsp.work import tell_unraisable
     from mlmg_lsp.workspace import Settings
 
@@ -61,13 +62,13 @@ def run(arguments: argparse.Namespace) -> int:
     shelf = Shelf()
     settings = Settings(arguments.library, tuple(arguments.allow_use), arguments.position_encoding)
 
-    def build() -> transports.Server:
+    def build() -> Server:
         return MotionScriptServer(settings, shelf)
 
     if arguments.tcp is None and arguments.ws is None:
-        return transports.serve_stdio(build)
+        return pipes.serve_stdio(build)
     host, port = _address(arguments.tcp or arguments.ws)
-    serve = transports.serve_ws if arguments.tcp is None else transports.serve_tcp
+    serve = sockets.serve_ws if arguments.tcp is None else sockets.serve_tcp
     return serve(build, host, port)
 
 
