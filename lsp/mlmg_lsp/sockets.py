@@ -99,8 +99,15 @@ async def _serve_ws(build: Callable[[], Server], host: str, port: int) -> int:
 
     ended = asyncio.Event()
     told = told_to_end(ended)
-    # To compress what stays on the machine would only take time.
-    listening = await serve(client, host, port, max_size=MOST_READ, compression=None, process_request=_refusal)
+    listening = await serve(
+        client,
+        host,
+        port,
+        max_size=MOST_READ,
+        compression=None,  # what stays on the machine would only take longer
+        close_timeout=CLOSING_S,
+        process_request=_refusal,
+    )
     _tell_where("ws", next(iter(listening.sockets)).getsockname())
     try:
         await ended.wait()
