@@ -14,6 +14,7 @@ from mlmg_lang.analysis import Analysis
 from mlmg_lang.catalog import Catalog
 from mlmg_lang.diagnostics import Diagnostic, Severity
 from mlmg_lang.ide.layers import graph_at
+from mlmg_lang.ide.meaning import motions_of_use
 from mlmg_lang.ide.occurrences import Occurrence, Sort, Statement, Symbol, occurrence_at, statements_at
 from mlmg_lang.ide.sayings import Understood, state_before, understood
 from mlmg_lang.ide.signature import described
@@ -292,10 +293,24 @@ class _Teller:
         let = made.gathered.definitions.lets[found.symbol.name]
         yield Part(_short(" ".join(made.addressed.slice(let.span).split())), code=True)
         signature = made.gathered.definitions.signatures.get(found.symbol.name)
+        if signature is not None:
+            yield Part(_type(let.command))
         for parameter in described(let, signature, made)[1]:
             yield Part(f"- {code(parameter.name)}{': ' if parameter.says else ''}{parameter.says}")
         use = found.use or syntax.Reference(let.name, let.name.span)
-        yield from _of_use(let, understood(self.analysis, syntax.Command(use, None, None, use.span)))
+        alone = understood(self.analysis, syntax.Command(use, None, None, use.span))
+        yield from _put_in(let, alone)
+        yield from self._meant(found, alone)
+
+    def _meant(self, found: Occurrence, alone: Understood) -> Iterator[Part]:
+        """Yield the graphs and motions that a definition stands for where it is used; alone, where it is defined."""
+        if found.use is None:
+            layers = () if alone.way is None else alone.way.layers
+            meant: Mapping[str, Sequence[str]] = {layer.graph: layer.motions for layer in layers}
+        else:
+            meant = motions_of_use(self.analysis, [one.item for one in self.statements], found.use)
+        for graph, motions in meant.items():
+            yield Part(f"- on {code(graph)}: {_some(list(map(code, motions)))}")
 
     def _parameter(self, symbol: Symbol) -> Iterator[Part]:
         made = self.analysis.made
@@ -313,16 +328,23 @@ class _Teller:
             yield Part(f"without it, {code(_short(default))}")
 
 
-def _of_use(let: syntax.Let, use: Understood) -> Iterator[Part]:
-    """Yield what a definition stands for in one use of it, if that is not what it says, and its type."""
+def _type(command: syntax.Command) -> str:
+    """Return what a definition is, in words."""
+    if command.once is not None:
+        return "a whole statement, which plays once"
+    return (
+        "a motion" if command.duration is None else f"a whole statement, which lasts {code(written(command.duration))}"
+    )
+
+
+def _put_in(let: syntax.Let, use: Understood) -> Iterator[Part]:
+    """Yield what a definition says in one use of it, if that is not what is written."""
     if use.expanded is None:
         return
     text = written(replace(use.expanded, motion=without_groups(use.expanded.motion)))
     if text != written(replace(let.command, motion=without_groups(let.command.motion))):
         yield Part("which stands here for")
         yield Part(_short(text), code=True)
-    for layer in () if use.way is None else use.way.layers:
-        yield Part(f"- on {code(layer.graph)}: {_some(list(map(code, layer.motions)))}")
 
 
 def _some(listed: Sequence[str]) -> str:

@@ -125,21 +125,69 @@ def test_a_definition_is_told_with_its_text_and_its_type(found):
     assert said.parts[0].code
     assert [part.text for part in said.parts] == [
         "let G = WALK with Upper-Body TALK",
+        "a motion",
         "- on `Full-Body`: `Walk_01`, `Walk_02` and `Walk_03`",
         "- on `Upper-Body`: `Talk_01` and `Talk_02`",
     ]
 
 
+@pytest.mark.parametrize(
+    ("text", "meant"),
+    [
+        ("let ¦A = WALK or SWING_HAND", ["Full-Body: Walk_01, Walk_02, Walk_03"]),
+        ("let A = WALK or SWING_HAND\nUpper-Body ¦A for 1 sec", ["Upper-Body: Walk_01, Walk_02"]),
+        ("let A = TALK or SWING_HAND\nWALK with ¦A", ["Upper-Body: Walk_01, Walk_02, Talk_01, Talk_02"]),
+        ("let A = TALK or IDLE\nWALK and ¦A", ["Upper-Body: Idle_01, Music_01, Talk_01, Talk_02"]),
+        ("let A = TALK\nlet B = WALK with ¦A", ["Upper-Body: Talk_01, Talk_02"]),
+        ("let A = WALK\n(not ¦A) and IDLE for 1 sec", ["Full-Body: Walk_01, Walk_02, Walk_03"]),
+        (
+            "let A = WALK or TALK\nA with Left-Hand WAVE with Upper-Body ¦A",
+            ["Upper-Body: Talk_01, Talk_02"],
+        ),
+        (
+            "let A = WALK or TALK\n¦A with Left-Hand WAVE with Upper-Body A",
+            ["Full-Body: Walk_01, Walk_02, Walk_03, Talk_01, Talk_02"],
+        ),
+        ("let A = TALK\nlet G(x) = WALK with x with Left-Hand WAVE\nG(¦A)", ["Upper-Body: Talk_01, Talk_02"]),
+        (
+            "let A = TALK\nlet G(x) = WALK with x for 1 sec\n¦G(A)",
+            ["Full-Body: Walk_01, Walk_02, Walk_03", "Upper-Body: Talk_01, Talk_02"],
+        ),
+        ("let A = SWING_HAND and (Walk_01 or Talk_01)\nUpper-Body (SWING_HAND and ¦A)", ["Upper-Body: Walk_01"]),
+        ("let A = TALK\nlet G(x) = x with ¦A", []),
+        ("let A = TALK\nWALK with Upper-Body ¦A with Upper-Body A", []),
+    ],
+)
+def test_the_type_of_a_definition_is_that_which_it_has_there(says, left_hand, text, meant):
+    told = [line.replace("`", "").replace(" and", ",") for line in says(text, library=left_hand)]
+    assert [line.removeprefix("- on ") for line in told if line.startswith("- on ")] == meant
+
+
+@pytest.mark.parametrize(
+    ("text", "kind"),
+    [
+        ("WALK", "a motion"),
+        ("WALK with Upper-Body TALK", "a motion"),
+        ("WALK for 2 sec", "a whole statement, which lasts `2 sec`"),
+        ("WALK once", "a whole statement, which plays once"),
+    ],
+)
+def test_a_definition_is_told_to_be_a_motion_or_a_whole_statement(says, text, kind):
+    assert says(f"let ¦A = {text}\nA")[1] == kind
+    assert says(f"let A = {text}\n¦A", library=None)[1] == kind
+
+
 def test_a_use_is_told_with_what_it_stands_for_there(says):
     text = "let HI(x, t = 2 sec) = x with Upper-Body (A or WAVE_HAND) for t\nlet A = TALK\n"
-    assert says(f"{text}¦HI(WALK or IDLE, t = 3 sec)")[1:5] == [
+    assert says(f"{text}¦HI(WALK or IDLE, t = 3 sec)")[1:6] == [
+        "a whole statement, which lasts `t`",
         "- `x`: a motion",
         "- `t`: a duration",
         "which stands here for",
         "(WALK or IDLE) with Upper-Body (TALK or WAVE_HAND) for 3 sec",
     ]
-    assert says(f"{text}¦HI(WALK)")[4] == "WALK with Upper-Body (TALK or WAVE_HAND) for 2 sec"
-    assert len(says(f"{text}¦HI")) == 3
+    assert says(f"{text}¦HI(WALK)")[5] == "WALK with Upper-Body (TALK or WAVE_HAND) for 2 sec"
+    assert len(says(f"{text}¦HI")) == 4
 
 
 def test_a_parameter_is_told_with_its_kind_and_its_default(says):
@@ -189,7 +237,7 @@ def test_cycles_are_told_by_the_clips_that_they_may_be_of(says):
 
 
 def test_without_a_library_what_the_script_says_itself_is_told(says):
-    assert says("let G = WALK\n¦G", library=None) == ["let G = WALK"]
+    assert says("let G = WALK\n¦G", library=None) == ["let G = WALK", "a motion"]
     assert says("¦WALK", library=None) == []
     assert says("WALK for ¦2 min", library=None) == ["120 sec"]
     assert says("WALK for ¦2 frames", library=None) == ["2 frames; how long they last depends on the library"]

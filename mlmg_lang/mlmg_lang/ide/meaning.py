@@ -1,0 +1,85 @@
+"""A use of a definition in a statement -> the motions that it stands for there, on each of its graphs."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import replace
+from typing import TypeAlias
+
+from mlmg_lang.analysis import Analysis
+from mlmg_lang.diagnostics import Diagnostic
+from mlmg_lang.ide.sayings import understood
+from mlmg_lang.moving import by, moved
+from mlmg_lang.parsing import syntax
+from mlmg_lang.planning import typed
+from mlmg_lang.planning.select import select
+
+_Use: TypeAlias = syntax.Reference | syntax.Call
+
+
+def motions_of_use(analysis: Analysis, items: Iterable[syntax.Item], use: _Use) -> Mapping[str, tuple[str, ...]]:
+    """Return the motions that a definition stands for in one use of it, by graph in the order of the text.
+
+    Nothing where the command that uses it is not understood, as in a definition that takes something.
+
+    Parameters
+    ----------
+    items : with addresses; the use is in one of them.
+    """
+    commands = (item.command if isinstance(item, syntax.Let) else item for item in items)
+    for command in commands:
+        if isinstance(command, syntax.Command) and any(node is use for node in syntax.walk(command)):
+            return _in_command(analysis, command, use)
+    return {}
+
+
+def _in_command(analysis: Analysis, command: syntax.Command, use: _Use) -> Mapping[str, tuple[str, ...]]:
+    says, names = understood(analysis, command), analysis.question.names
+    if says.expanded is None or says.way is None or names is None:
+        return {}
+    if command.motion is use:
+        return {layer.graph: layer.motions for layer in says.way.layers}
+    # What comes of this use is known by where it is, though another use may put in the same text.
+    apart = 1 + max(node.span.end for node in syntax.walk(says.expanded))
+    motion = _elsewhere(says.expanded.motion, use, lambda group: moved(group, by(apart)))
+    ways = select(motion, names, analysis.made.addressed, explains=False)
+    assert not isinstance(ways, Diagnostic), "it is understood where it stands"
+    found: dict[str, set[str]] = {}
+    for choice in (one for layer in ways[0].layers for one in _from(layer.choice, apart)):
+        # An `and` in an `and` is one with it, so that there may be several.
+        found.setdefault(choice.graph, set(choice.motions)).intersection_update(choice.motions)
+    return {graph: names.in_order(graph, motions) for graph, motions in found.items()}
+
+
+def _elsewhere(motion: syntax.Motion, use: _Use, put: Callable[[syntax.Group], syntax.Group]) -> syntax.Motion:
+    """Return an expression with what a use has become, which stands in parentheses, put elsewhere."""
+    match motion:
+        case syntax.Group() if motion.span == use.span:
+            return put(motion)
+        case syntax.Group(inner):
+            return replace(motion, motion=_elsewhere(inner, use, put))
+        case syntax.Not(operand):
+            return replace(motion, operand=_elsewhere(operand, use, put))
+        case syntax.And(operands) | syntax.Or(operands) | syntax.With(operands):
+            return replace(motion, operands=tuple(_elsewhere(one, use, put) for one in operands))
+        case syntax.Call(_, arguments):
+            return replace(motion, arguments=tuple(_argument(one, use, put) for one in arguments))
+    return motion
+
+
+def _argument(argument: syntax.Argument, use: _Use, put: Callable[[syntax.Group], syntax.Group]) -> syntax.Argument:
+    value = argument.value
+    return argument if isinstance(value, syntax.Quantity) else replace(argument, value=_elsewhere(value, use, put))
+
+
+def _from(choice: typed.Choice, address: int) -> Iterator[typed.Choice]:
+    """Yield the outermost choices from an address on."""
+    if choice.span.start >= address:
+        yield choice
+        return
+    match choice:
+        case typed.AllBut(operand=operand):
+            yield from _from(operand, address)
+        case typed.Both(operands=operands) | typed.Either(operands=operands):
+            for one in operands:
+                yield from _from(one, address)
