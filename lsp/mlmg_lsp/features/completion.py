@@ -146,7 +146,8 @@ def _detail(one: Completion) -> str:
     if one.graph is None:
         return one.says or one.what.value
     n_motions = f", {counted(len(one.motions), 'motion')}" if one.what is What.TAG else ""
-    return f"{one.what.value} on {one.graph}{n_motions}"
+    beside = f", the rest on {one.beside}" if one.beside else ""
+    return f"{one.what.value} on {one.graph}{n_motions}{beside}"
 
 
 # --- against what ---

@@ -1,11 +1,14 @@
-"""What stands left of an `and` -> the names that can stand right of it.
+"""What stands left of an `and` -> what each name would do right of it.
 
-They have a motion in common with it on some graph, or can be shared out with it over two; see `planning.finding`.
+It has a motion in common with that on some graph, or is shared out with it over two; see `planning.finding`.
 """
 
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import product
+from typing import NamedTuple
 
 from mlmg_lang.diagnostics import Diagnostic
 from mlmg_lang.ide.outwards import outwards
@@ -20,13 +23,51 @@ from mlmg_lang.source import Source
 _ENDS_AND = frozenset({"WITH", "OR", "COMMA", "EQUALS"})
 
 
-def partners(left: syntax.Motion, graphs: Sequence[str], names: Names, *, whole: bool) -> frozenset[str] | None:
-    """Return the names that can stand right of an `and`; None if nobody knows, as what stands left of it is nothing.
+class Partner(NamedTuple):
+    """What a name does right of an `and`.
+
+    Attributes
+    ----------
+    graph : that it is on.
+    beside : the graph that what stands left is on, if that is another: then the two are shared out.
+    """
+
+    graph: str
+    beside: str | None
+
+
+@dataclass(frozen=True, slots=True)
+class Partners:
+    """What the names of a library do right of an `and`.
+
+    Attributes
+    ----------
+    above : what may be played above the graphs that names are on then, for each way to be there.
+    left : by the same, the motions of the graph that go with what stands left.
+    by_name : what each name does that can stand there.
+    """
+
+    above: Mapping[Partner, Collection[str]]
+    left: Mapping[Partner, Collection[str]]
+    by_name: Mapping[str, Partner]
+
+
+def partners(
+    left: syntax.Motion,
+    graphs: Sequence[str],
+    own: Collection[str],
+    tops: Mapping[str, Collection[str]],
+    names: Names,
+    *,
+    whole: bool,
+) -> Partners | None:
+    """Return what names do right of an `and`; None if nobody knows, as what stands left of it is nothing.
 
     Parameters
     ----------
     left : a set of motions, whose names all mean something.
-    graphs : that the two can be on.
+    graphs : that the two can be on, the likeliest first. own : of these, those that what stands right can be on.
+    tops : by graph that can be the topmost of the two, what may be played above it.
     whole : whether both have to be on the same.
     """
     meant = Search(names, Source(""), ()).graphs(left, Room())
@@ -36,23 +77,43 @@ def partners(left: syntax.Motion, graphs: Sequence[str], names: Names, *, whole:
     on = {graph: frozenset(motions_on(graph, left, names, fixed).motions) for graph in graphs if graph in meant}
     if not any(on.values()):
         return None
-    fitting = {graph: frozenset(on.get(graph, ())) for graph in graphs}
-    if not whole:
-        for graph in graphs:
-            fitting[graph] = fitting[graph].union(*_shared(graph, on, names))
-    entries = ((entry, fitting[graph]) for graph in graphs for entry in names.entries(graph))
-    return frozenset([entry.name for entry, motions in entries if not motions.isdisjoint(entry.motions)])
+    common = {Partner(graph, None): on[graph] for graph in graphs if graph in on and graph in own}
+    shared = {} if whole else dict(_shared(on, own, tops, names))
+    fitting = common | {partner: motions for partner, (motions, _) in shared.items()}
+    above = {partner: tops.get(partner.graph, ()) for partner in common}
+    by_name: dict[str, Partner] = {}
+    # What is the same on one graph is not shared out, and what rule 1 forbids there is nothing.
+    for partner, motions in fitting.items():
+        for entry in names.entries(partner.graph):
+            if entry.name not in by_name and not motions.isdisjoint(entry.motions):
+                by_name[entry.name] = partner
+    possible = {name: one for name, one in by_name.items() if one.beside is not None or one.graph in tops}
+    return Partners(above | {partner: over for partner, (_, over) in shared.items()}, fitting, possible)
 
 
-def _shared(graph: str, on: Mapping[str, Collection[str]], names: Names) -> Iterator[Collection[str]]:
-    """Yield the motions of a graph that can run at the same time as some of other graphs, by rule 1."""
-    for other, motions in on.items():
-        if not motions or other == graph:
-            continue
-        if graph in names.ancestors(other):
-            yield names.motion_set(other)
-        elif other not in names.ancestors(graph) or not names.motion_set(graph).isdisjoint(motions):
-            yield names.motion_set(graph)
+def _shared(
+    on: Mapping[str, frozenset[str]], own: Collection[str], tops: Mapping[str, Collection[str]], names: Names
+) -> Iterator[tuple[Partner, tuple[frozenset[str], Collection[str]]]]:
+    """Yield the ways to share out what stands on both sides, the best first: see `planning.finding.sharing`.
+
+    With each come the motions of the right one's graph that rule 1 allows then, and what may be played above it.
+    """
+    pairs = [(left, right) for left, right in product(on, own) if left != right and on[left]]
+    height = {graph: names.height(graph) for pair in pairs for graph in pair}
+    pairs.sort(
+        key=lambda pair: (sum(height[one][0] for one in pair), *zip(*map(height.__getitem__, pair), strict=True))
+    )
+    for left, right in pairs:
+        motions, partner = names.motion_set(right), Partner(right, left)
+        if right in names.ancestors(left):
+            if right in tops:
+                yield partner, (motions & names.motion_set(left), tops[right])
+        elif left in names.ancestors(right):
+            leaving = on[left] & motions
+            if leaving and left in tops:
+                yield partner, (motions, leaving)
+        elif left in tops and right in tops:
+            yield partner, (motions, tops[right])
 
 
 def left_of_and(own: Sequence[Token]) -> Sequence[Token]:

@@ -9,10 +9,12 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import chain, islice
-from typing import Final
+from math import inf
+from typing import Final, TypeAlias
 
 from mlmg_lang.definitions.gather import Definitions, Kind
 from mlmg_lang.ide.arguments import argument_at, names_of_definition, parameter_kinds
+from mlmg_lang.ide.combining import Partner, Partners
 from mlmg_lang.ide.cursor import Cursor
 from mlmg_lang.ide.fuzzy import matching
 from mlmg_lang.ide.offers import Completion, Offers, What, best_fit
@@ -28,6 +30,8 @@ from mlmg_lang.planning.names import Names
 from mlmg_lang.source import Span
 from mlmg_lang.spelling import counted
 
+Place: TypeAlias = tuple[str, str | None]
+"""A graph that a name is on, and the one beside it that what stands left of `and` is on, if any."""
 _UNITS: Final = ("sec", "ms", "min", "frames", "cycles")
 _STATEMENT_WORDS: Final = frozenset({"WAIT", "END", "REPEAT", "CHOOSE", "LET", "USE"})
 _MOST_TRIED: Final = 50
@@ -45,16 +49,17 @@ class Offered:
     ----------
     span : the stretch that it takes the place of.
     found : the best first.
-    fits : by graph, how well its motions go with what is playing; see `offers.Fits`.
+    fits : by graph, and the graph beside it as in `Completion`, how well its motions go with what is playing; see
+        `offers.Fits`.
     """
 
     span: Span
     found: tuple[Completion, ...]
-    fits: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
+    fits: Mapping[Place, Mapping[str, float]] = field(default_factory=dict)
 
     def fit(self, one: Completion) -> float | None:
         """Return how well the best motion of a completion goes with what is playing; None if that is not known."""
-        return None if one.graph is None else best_fit(one, self.fits[one.graph])
+        return None if one.graph is None else best_fit(one, self.fits[one.graph, one.beside])
 
 
 @dataclass(frozen=True, slots=True)
@@ -116,7 +121,7 @@ class _Completer:
     cursor: Cursor
     reach: Reach
     own: frozenset[str]
-    fits: dict[str, Mapping[str, float]] = field(default_factory=dict)
+    fits: dict[Place, Mapping[str, float]] = field(default_factory=dict)
 
     def all(self) -> Iterator[Iterable[Completion]]:
         before = self.cursor.before
@@ -194,8 +199,11 @@ class _Completer:
             is_right_behind = own[-1].type in NAMES
             joined = own[:-1] if is_right_behind else own
             graphs = self.around.names.all_levels() if is_right_behind else (graph,)
-            partners = self.reach.partners(joined, graphs, whole=not is_right_behind)
-            yield _among(partners, self._on(graph, above)) if (above := self.reach.above(graph, own)) else ()
+            partners = self.reach.partners(joined, graphs, (graph,), whole=not is_right_behind)
+            if partners is not None:
+                yield from chain(*self._beside(partners))
+            elif above := self.reach.above(graph, own):
+                yield self._on(graph, above)
             return
         if own and own[-1].type in NAMES | {"RIGHT"}:
             return  # A word comes next.
@@ -204,22 +212,52 @@ class _Completer:
             return
         rooms = None if left is None else self.reach.rooms_below(left)
         graphs = self.around.names.all_levels() if rooms is None else tuple(graph for graph, _ in rooms)
-        partners = self.reach.partners(own, graphs, whole=False)
-        names = self._anywhere(before) if rooms is None else self._below(before, rooms)
-        yield from (_among(partners, found) for found in names)
+        partners = self.reach.partners(own, graphs, graphs, whole=False)
+        if partners is not None:
+            yield from self._behind_and(before, partners, rooms)
+        elif rooms is None:
+            yield from self._anywhere(before)
+        else:
+            yield from self._below(before, rooms)
+
+    def _behind_and(
+        self, before: Sequence[Token], partners: Partners, rooms: Sequence[Below] | None
+    ) -> Iterator[Iterable[Completion]]:
+        """Yield what may stand behind an `and`: what has motions in common first, then what is shared out."""
+        common, shared = self._beside(partners)
+        yield from self._with_own(common, before)
+        graphs = dict.fromkeys(partner.graph for partner, motions in partners.left.items() if motions)
+        yield self._graphs([graph for graph in graphs if graph != self.around.names.root])
+        yield () if rooms is None else (_sub(rooms),)
+        yield from shared
+
+    def _beside(self, partners: Partners) -> tuple[list[list[Completion]], list[list[Completion]]]:
+        """Return the names that have motions in common with what stands left of `and`, and those that are shared out.
+
+        What they do there counts alone: the best of their motions that go with it come first.
+        """
+        found: tuple[list[list[Completion]], list[list[Completion]]] = ([], [])
+        for partner, motions in partners.left.items():
+            names = self._on(partner.graph, partners.above[partner], partner.beside)
+            fits = self.fits[partner.graph, partner.beside]
+            here = [_within(one, motions, partner) for one in names if partners.by_name.get(one.name) is partner]
+            best = [best_fit(one, fits) for one in here]
+            order = sorted((at for at in range(len(here)) if best[at] < inf), key=best.__getitem__)
+            found[partner.beside is not None].append([here[at] for at in order])
+        return found
 
     def _below(self, before: Sequence[Token], rooms: Sequence[Below]) -> Iterator[Iterable[Completion]]:
         """Yield what may stand behind a `with`."""
         yield from self._with_own(self._unqualified(rooms, set()), before)
-        yield (_graph(graph, _part_says(graph, self.around.names)) for graph, _ in rooms)
-        yield (_graph(SUB, ": ".join(("the part below", *[graph for graph, _ in rooms[:1]]))),)
+        yield self._graphs([graph for graph, _ in rooms])
+        yield (_sub(rooms),)
 
     def _anywhere(self, before: Sequence[Token]) -> Iterator[Iterable[Completion]]:
         """Yield what a command may begin with: what the whole body does first, then what parts may do as it is."""
         names = self.around.names
         yield from self._with_own([self._on(names.root, self.reach.playing(names.root))], before)
         allowed = [graph for graph in names.all_levels()[1:] if self.reach.playing(graph) & names.motion_set(graph)]
-        yield (_graph(graph, _part_says(graph, names)) for graph in allowed)
+        yield self._graphs(allowed)
         rooms = [(graph, self.reach.playing(graph)) for graph in allowed]
         yield from self._unqualified(rooms, set(names.spellings_on(names.root)))
 
@@ -246,12 +284,15 @@ class _Completer:
             if number < len(rooms):
                 known |= {one.name for one in own}
 
-    def _on(self, graph: str, above: Collection[str]) -> Sequence[Completion]:
+    def _on(self, graph: str, above: Collection[str], beside: str | None = None) -> Sequence[Completion]:
         """Return the names on a graph that mean what they mean there, and note how well its motions fit."""
-        found, self.fits[graph] = self.around.offers.on(graph, above)
+        found, self.fits[graph, beside] = self.around.offers.on(graph, above)
         definitions = self.around.definitions
         hidden = self.around.names.spelt(graph, {*definitions.lets, *definitions.unread, *self.own})
         return [one for one in found if one.name not in hidden] if hidden else found
+
+    def _graphs(self, graphs: Iterable[str]) -> Iterator[Completion]:
+        return (_graph(graph, _part_says(graph, self.around.names)) for graph in graphs)
 
     def _parameters_of(self, before: Sequence[Token], kind: Kind) -> Iterator[Completion]:
         """Yield the parameters of the definition that is being written, of a kind or of one that is not known."""
@@ -284,13 +325,19 @@ def _named(parameter: syntax.Parameter) -> Completion:
     return Completion(text, text, What.ARGUMENT, says="")
 
 
-def _among(partners: Collection[str] | None, found: Iterable[Completion]) -> Iterable[Completion]:
-    """Return what is no name of a graph, or can stand with what is left of an `and`."""
-    return found if partners is None else [one for one in found if one.graph is None or one.name in partners]
+def _within(one: Completion, motions: Collection[str], partner: Partner) -> Completion:
+    """Return a name as what it does right of an `and`: it stands for some motions alone."""
+    if partner.beside is None and len(one.motions) == 1:
+        return one
+    return one._replace(motions=tuple(filter(motions.__contains__, one.motions)), beside=partner.beside)
 
 
 def _graph(graph: str, says: str) -> Completion:
     return Completion(script_name(graph), graph, What.GRAPH, says=says)
+
+
+def _sub(rooms: Sequence[Below]) -> Completion:
+    return _graph(SUB, ": ".join(("the part below", *[graph for graph, _ in rooms[:1]])))
 
 
 def _part_says(graph: str, names: Names) -> str:

@@ -35,6 +35,7 @@ class Completion(NamedTuple):
     graph : that the motions of a name are on, or None.
     motions : that it stands for.
     says : a few words about it.
+    beside : the graph that what stands left of it and of `and` is on, if the two are shared out over graphs.
     """
 
     text: str
@@ -43,6 +44,7 @@ class Completion(NamedTuple):
     graph: str | None = None
     motions: tuple[str, ...] = ()
     says: str = ""
+    beside: str | None = None
 
 
 class Fits(Protocol):

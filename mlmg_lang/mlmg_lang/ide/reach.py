@@ -14,7 +14,7 @@ from mlmg_lang.definitions.expand import Expander
 from mlmg_lang.definitions.gather import Definitions
 from mlmg_lang.diagnostics import Diagnostic
 from mlmg_lang.ide.arguments import open_parentheses
-from mlmg_lang.ide.combining import is_inner, left_of_and, partners
+from mlmg_lang.ide.combining import Partners, is_inner, left_of_and, partners
 from mlmg_lang.ide.outwards import outwards
 from mlmg_lang.parsing import syntax
 from mlmg_lang.parsing.build_syntax import name_from_token
@@ -85,18 +85,29 @@ class Reach:
             if (parent := names.parent(graph)) is not None
         ]
 
-    def partners(self, own: Sequence[Token], graphs: Sequence[str], *, whole: bool) -> frozenset[str] | None:
-        """Return the names that can stand behind an expression that ends with `and`; None if nothing is known of that.
+    def partners(
+        self, own: Sequence[Token], graphs: Sequence[str], named: Collection[str], *, whole: bool
+    ) -> Partners | None:
+        """Return what names do behind an expression that ends with `and`; None if nothing is known of that.
 
         Parameters
         ----------
-        graphs : that may be named there. whole : whether what `and` joins has to be on one of them.
+        graphs : that what `and` joins can be on. named : of these, those that what stands behind it can be on.
+        whole : whether all that it joins has to be on one of them.
         """
         left = left_of_and(own)
         node = self._said(left) if left else None
         if not isinstance(node, syntax.Command) or any(isinstance(part, syntax.With) for part in syntax.walk(node)):
             return None
-        return partners(node.motion, graphs, self.names, whole=whole or is_inner(own))
+        return partners(node.motion, graphs, named, self._tops(own), self.names, whole=whole or is_inner(own))
+
+    def _tops(self, own: Sequence[Token]) -> dict[str, Collection[str]]:
+        """Return, by graph that what is written next can be on, what may be played above it then."""
+        left, names = left_of_with(own), self.names
+        if left is not None:
+            return dict(self.rooms_below(left))
+        above = ((graph, self.playing(graph)) for graph in names.all_levels())
+        return {graph: motions for graph, motions in above if graph == names.root or motions & names.motion_set(graph)}
 
     def takes(self, own: Sequence[Token], definition: str) -> bool:
         """Return whether an expression could go on with a definition; what it gets for its parameters is not known."""

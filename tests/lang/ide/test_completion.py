@@ -156,6 +156,48 @@ def test_behind_and_stands_what_has_something_in_common_or_can_run_at_the_same_t
     assert {"for", "once", "and", "or"} <= set(texts("WALK and PAIR ¦", defined=defined))
 
 
+@pytest.mark.parametrize("playing", ["Idle_01", "Walk_01", "Idle_02"])
+@pytest.mark.parametrize("library", ["reference", "left-hand", "hands"])
+def test_a_name_behind_and_is_offered_as_what_it_would_do_there(
+    library: str, playing: str, offers: Offers, libraries: Any
+) -> None:
+    texts = ["WALK and ¦", "IDLE and ¦", "TALK and ¦", "Idle_02 and ¦", "TALK and IDLE and ¦"]
+    texts += ["IDLE with Walk_01 and ¦"]
+    if library == "hands":
+        texts += ["WAVE and ¦", "WALK and Left-Hand ¦", "Left-Hand WAVE and ¦", "WALK with POINT and ¦"]
+    else:
+        texts += ["WALK and Upper-Body ¦", "Upper-Body TALK and ¦", "Upper-Body (TALK and ¦", "WALK with TALK and ¦"]
+        texts += ["SWING_HAND and ¦"]
+    n_shared = 0
+    for text in texts:
+        found = [one for one in offers(text, libraries[library], playing) if one.graph is not None]
+        shared = [one.beside is not None for one in found]
+        assert shared == sorted(shared)
+        n_shared += sum(shared)
+        for one in found:
+            written = text.replace("¦", one.text) + ")" * text.count("(")
+            analysis = analyse(Source(f"{playing}\n{written}"), libraries[library])
+            assert not [told for told in analysis.diagnostics if told.severity == "error"], written
+            assert analysis.resolved is not None
+            layers = {layer.graph: layer.candidates for layer in analysis.resolved.statements[1].layers}
+            assert set(layers[one.graph]) <= set(one.motions), written
+            assert one.beside is None or one.beside in layers, written
+            if text.startswith("WALK and ") and "(" not in text:
+                assert len(layers) == (1 if one.beside is None else 2), written
+    assert n_shared
+
+
+def test_behind_and_what_has_most_in_common_with_what_is_played_comes_first(offers: Offers) -> None:
+    found = offers("Walk_02 and ¦")
+    assert [(one.name, one.motions, one.beside) for one in found][:2] == [
+        ("WALK", ("Walk_02",), None),
+        ("Walk_02", ("Walk_02",), None),
+    ]
+    shared = [one for one in found if one.beside is not None]
+    assert {(one.graph, one.beside) for one in shared} == {("Upper-Body", "Full-Body")}
+    assert "IDLE" in [one.name for one in shared]
+
+
 DEFINED = """
 let NOD = Upper-Body TALK
 let EXPLAIN = WALK with Upper-Body TALK
@@ -364,7 +406,7 @@ def test_names_are_ranked_by_the_best_of_their_motions_then_by_use_then_as_the_l
             if any(motion in fits for motion in entry.motions)
         ]
         found = Offers(names, Fitting(), uses).on(names.root, ()).found
-        told = Offered(Span(0, 0), found, {names.root: fits})
+        told = Offered(Span(0, 0), found, {(names.root, None): fits})
         assert [(told.fit(one), one.name) for one in found] == [(fit, name) for fit, _, _, name in sorted(known)]
 
 
