@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterable, Mapping, Sequence
 from functools import cache
 from pathlib import Path
-from typing import Final
+from typing import TYPE_CHECKING, Final
 
 from lsprotocol import types
 
@@ -17,6 +17,9 @@ from mlmg_lang.rules import page_of, read_rule
 from mlmg_lang.source import Source, Span
 from mlmg_lsp.open_text import Snapshot
 from mlmg_lsp.positions import EditorPosition, Encoding, offset_from_position, range_from_span, units_in
+
+if TYPE_CHECKING:
+    from mlmg_lang.ide.hover import Part
 
 _SEVERITIES: Final = {
     Severity.ERROR: types.DiagnosticSeverity.Error,
@@ -74,6 +77,11 @@ def source_of(snapshot: Snapshot, file: str) -> Source:
     sources = (source for one in known for source in (one.source, *one.source.used))
     found = next((source for source in sources if source.name == file), None)
     return Source(Path(file).read_bytes().decode("utf-8-sig", "replace"), file) if found is None else found
+
+
+def text_of(parts: Iterable[Part]) -> str:
+    """Return what there is to say as one text in Markdown."""
+    return "\n\n".join(f"```motion-script\n{part.text}\n```" if part.code else part.text for part in parts)
 
 
 def markup(text: str, as_it_is: bool) -> types.MarkupContent:

@@ -162,6 +162,43 @@ def test_there_is_more_to_read_of_what_is_chosen(client):
     assert "joints: " in client.ask("completionItem/resolve", found["Upper-Body"])["documentation"]
 
 
+def resolved(client, line: int, character: int) -> dict[str, str]:
+    """Return what there is to read of all that is offered at a place, by label."""
+    items = client.ask_at("completion", URI, line, character)["items"]
+    return {one["label"]: client.ask("completionItem/resolve", one).get("documentation", "") for one in items}
+
+
+def test_of_a_definition_and_what_it_takes_there_is_to_read_what_hovering_says(client):
+    defined = "let stroll = WALK or IDLE\nlet lazy = stroll and WALK\nlet two(x, t = 2 sec) = x or WALK for t\n"
+    opened(client, f"{defined}\ntwo(\nlet three(x) = x or WALK")
+    said = resolved(client, 3, 0)
+    for line, name in enumerate(("stroll", "lazy", "two")):
+        hovered, _, _ = client.ask_at("hover", URI, line, 5)["contents"]["value"].partition("\n\nwarning: ")
+        assert said[name] == f"{hovered}\n\ndefined in line {line + 1}"
+        assert f"let {name}" in said[name]
+    assert "on Full-Body: Walk_01" in said["lazy"].replace("`", "")
+    arguments = resolved(client, 4, 4)
+    assert "without it, `2 sec`" in arguments["t = "]
+    assert "defined in line 3" in arguments["t = "]
+    assert "parameter `x` of `three`" in resolved(client, 5, 15)["x"]
+
+
+def test_of_words_and_units_there_is_to_read_what_they_say(client):
+    opened(client, "WALK \nWALK for 2 ")
+    assert resolved(client, 0, 5)["once"] == "`once`: once, from its beginning to its end"
+    assert resolved(client, 1, 11)["cycles"].startswith("`cycles`: passes of the topmost motion")
+
+
+def test_it_is_said_in_which_file_a_definition_stands(client, tmp_path):
+    (tmp_path / "gest.ms").write_text("\nlet stroll = WALK\n", encoding="utf-8")
+    uri = (tmp_path / "main.ms").as_uri()
+    client.open(uri, 'use "gest.ms"\n\n')
+    client.diagnostics(uri, 1)
+    found = {one["label"]: one for one in client.ask_at("completion", uri, 1, 0)["items"]}
+    assert client.ask("completionItem/resolve", found["stroll"])["documentation"].endswith("line 2 of `gest.ms`")
+    client.close_text(uri)
+
+
 def test_behind_a_quote_labels_have_quotes_too_for_what_is_written_is_compared_with_them(client):
     opened(client, '"wal for 2 sec')
     first = client.ask_at("completion", URI, 0, 4)["items"][0]

@@ -13,12 +13,15 @@ from lsprotocol import types
 from mlmg_lang.definitions.gather import Listing
 from mlmg_lang.ide.completion import Surroundings
 from mlmg_lang.ide.here import state_before, tokens_around
+from mlmg_lang.ide.hover import hover_declaration, of_word
 from mlmg_lang.ide.matches import matches
+from mlmg_lang.ide.occurrences import Sort, Symbol
 from mlmg_lang.ide.offers import Completion, Offers, What
+from mlmg_lang.ide.words import UNIT_SAYS, WORDS
 from mlmg_lang.planning import flow
 from mlmg_lang.planning.names import Names
-from mlmg_lang.spelling import counted
-from mlmg_lsp.convert import markup, offset_of
+from mlmg_lang.spelling import counted, normal
+from mlmg_lsp.convert import markup, offset_of, text_of
 from mlmg_lsp.nothing import NoFits, Nothing
 from mlmg_lsp.open_text import Snapshot
 from mlmg_lsp.positions import EditorPosition, range_from_span
@@ -83,9 +86,9 @@ def completion(snapshot: Snapshot, params: types.CompletionParams) -> Written:
 def resolve(snapshot: Snapshot, item: types.CompletionItem) -> types.CompletionItem:
     """Return a completion with what there is to read of it."""
     data = item.data if isinstance(item.data, Mapping) else {}
-    lines = [] if snapshot.shelved is None else list(_documentation(snapshot.shelved.library, data))
-    if lines:
-        read = markup("\n\n".join(lines), snapshot.client.markdown_of_completions)
+    text = "\n\n".join(_documentation(snapshot, data))
+    if text:
+        read = markup(text, snapshot.client.markdown_of_completions)
         # Who has not said that it knows kinds of texts may know of none.
         item.documentation = read if read.kind is types.MarkupKind.Markdown else read.value
     return item
@@ -106,7 +109,7 @@ def _item(snapshot: Snapshot, one: Completion, rank: int, spot: _Spot) -> Json:
         "detail": _detail(one),
         "sortText": f"{rank:04}",
         "textEdit": {"range": spot.place, "newText": snippet or one.text},
-        "data": {"uri": snapshot.uri, "name": one.name, "what": one.what.value, "graph": one.graph},
+        "data": {"uri": snapshot.uri, "name": one.name, "what": one.what.value, "graph": one.graph, "owner": one.owner},
     }
     if spot.apart:
         item["filterText"] = re.sub(r"[\s_-]", " ", one.name)
@@ -174,15 +177,30 @@ def _paths(analysis: Analysis, begun: str) -> Iterable[str]:
 # --- what there is to read ---
 
 
-def _documentation(library: Library, data: Mapping[str, Any]) -> Iterator[str]:
-    name, graph = data.get("name"), data.get("graph")
+def _documentation(snapshot: Snapshot, data: Mapping[str, Any]) -> Iterator[str]:
+    name, owner = str(data.get("name")), str(data.get("owner"))
     match data.get("what"):
+        case What.DEFINITION:
+            yield text_of(hover_declaration(snapshot.analysis, Symbol(Sort.DEFINITION, name)))
+        case What.PARAMETER | What.ARGUMENT:
+            parameter = Symbol(Sort.PARAMETER, normal(name.removesuffix(" = ")), owner)
+            yield text_of(hover_declaration(snapshot.analysis, parameter))
+        case What.WORD if name.upper() in WORDS:
+            yield of_word(name, WORDS[name.upper()]).text
+        case What.UNIT if name in UNIT_SAYS:
+            yield of_word(name, UNIT_SAYS[name]).text
+        case what if snapshot.shelved is not None:
+            yield from _of_library(snapshot.shelved.library, what, name, data.get("graph"))
+
+
+def _of_library(library: Library, what: object, name: str, graph: object) -> Iterator[str]:
+    match what:
         case What.MOTION if graph in library.graphs and name in library.by_name[graph].index:
-            yield from _of_motion(library, str(name))
+            yield from _of_motion(library, name)
         case What.TAG if graph in library.graphs:
-            yield from _of_tag(library, str(graph), str(name))
+            yield from _of_tag(library, str(graph), name)
         case What.GRAPH if name in library.graphs:
-            yield from _of_graph(library, str(name))
+            yield from _of_graph(library, name)
 
 
 def _of_motion(library: Library, motion: str) -> Iterator[str]:

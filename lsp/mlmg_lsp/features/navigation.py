@@ -23,6 +23,7 @@ from mlmg_lsp.convert import (
     offset_of,
     range_of,
     source_of,
+    text_of,
     workspace_edits,
 )
 from mlmg_lsp.library_facts import LibraryFacts, configuration_of
@@ -40,8 +41,7 @@ def hover(snapshot: Snapshot, params: types.HoverParams) -> types.Hover | None:
     found = [one for one in said if one is not None]
     if not found:
         return None
-    parts = (part for one in found for part in one.parts)
-    text = "\n\n".join(f"```motion-script\n{part.text}\n```" if part.code else part.text for part in parts)
+    text = text_of(part for one in found for part in one.parts)
     return types.Hover(markup(text, snapshot.client.markdown_of_hovers), _range(snapshot, found[0].span))
 
 

@@ -24,11 +24,13 @@ class Argument:
     parameter : that it is for; None if there is none left, or it has to be named first.
     kind : of what is wanted; None if that is not known.
     nameable : the parameters that it could name.
+    owner : the name of the definition, in NFC.
     """
 
     parameter: syntax.Parameter | None
     kind: Kind | None
     nameable: tuple[syntax.Parameter, ...]
+    owner: str
 
     @property
     def takes_motion(self) -> bool:
@@ -136,9 +138,11 @@ def _argument(
     nameable: tuple[syntax.Parameter, ...],
     definitions: Definitions,
 ) -> Argument:
-    signature = definitions.signatures.get(normal(let.name.text))
+    owner = normal(let.name.text)
+    signature = definitions.signatures.get(owner)
     kinds = {} if signature is None else signature.kinds
-    return Argument(parameter, None if parameter is None else kinds.get(normal(parameter.name.text)), nameable)
+    kind = None if parameter is None else kinds.get(normal(parameter.name.text))
+    return Argument(parameter, kind, nameable, owner)
 
 
 def _of_default(default: Sequence[Token]) -> Kind | None:

@@ -19,8 +19,9 @@ from mlmg_lang.ide.cursor import Cursor
 from mlmg_lang.ide.fuzzy import matching
 from mlmg_lang.ide.offers import Completion, Offers, What, best_fit
 from mlmg_lang.ide.reach import Below, Reach, expression, left_of_with
-from mlmg_lang.ide.words import WORDS
+from mlmg_lang.ide.words import UNIT_SAYS, WORDS
 from mlmg_lang.parsing import syntax
+from mlmg_lang.parsing.build_syntax import name_from_token
 from mlmg_lang.parsing.lexical import in_quotes, script_name
 from mlmg_lang.parsing.line_parser import accepted
 from mlmg_lang.parsing.structure import SUB
@@ -28,7 +29,7 @@ from mlmg_lang.parsing.tokens import NAMES, Token
 from mlmg_lang.planning.flow import State
 from mlmg_lang.planning.names import Names
 from mlmg_lang.source import Span
-from mlmg_lang.spelling import counted
+from mlmg_lang.spelling import counted, normal
 
 Place: TypeAlias = tuple[str, str | None]
 """A graph that a name is on, and the one beside it that what stands left of `and` is on, if any."""
@@ -129,7 +130,7 @@ class _Completer:
         if types is None:
             return
         if before and before[-1].type in ("INTEGER", "DECIMAL"):
-            yield (Completion(unit, unit, What.UNIT) for unit in _UNITS if "UNIT" in types)
+            yield (Completion(unit, unit, What.UNIT, says=UNIT_SAYS[unit]) for unit in _UNITS if "UNIT" in types)
             return
         if types & NAMES:
             yield from self._names(before)
@@ -189,7 +190,7 @@ class _Completer:
         own = expression(before)
         argument = argument_at(own, self.around.definitions)
         if argument is not None:
-            yield map(_named, argument.nameable)
+            yield (_named(parameter, argument.owner) for parameter in argument.nameable)
             if argument.kind is Kind.DURATION:
                 yield self._parameters_of(before, Kind.DURATION)
             if not argument.takes_motion:
@@ -298,7 +299,8 @@ class _Completer:
         """Yield the parameters of the definition that is being written, of a kind or of one that is not known."""
         for name, known in parameter_kinds(before, self.around.definitions).items():
             if known in (None, kind):
-                yield Completion(script_name(name), name, What.PARAMETER)
+                owner = normal(name_from_token(before[1]).text)
+                yield Completion(script_name(name), name, What.PARAMETER, owner=owner)
 
     def _definitions(self, before: Sequence[Token]) -> Iterator[Completion]:
         definitions, own = self.around.definitions, expression(before)
@@ -320,9 +322,9 @@ def _path(path: str) -> Completion:
     return Completion(in_quotes(path), path, What.FILE, says="a script")
 
 
-def _named(parameter: syntax.Parameter) -> Completion:
-    text = f"{parameter.name.text} = "
-    return Completion(text, text, What.ARGUMENT, says="")
+def _named(parameter: syntax.Parameter, owner: str) -> Completion:
+    name = parameter.name.text
+    return Completion(f"{script_name(name)} = ", f"{name} = ", What.ARGUMENT, owner=owner)
 
 
 def _within(one: Completion, motions: Collection[str], partner: Partner) -> Completion:

@@ -8,14 +8,16 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
 from itertools import chain
+from pathlib import PurePath
 from typing import Final, Protocol
 
 from mlmg_lang.analysis import Analysis
 from mlmg_lang.catalog import Catalog
 from mlmg_lang.diagnostics import Diagnostic, Severity
+from mlmg_lang.ide.definition import declaration
 from mlmg_lang.ide.layers import graph_at
 from mlmg_lang.ide.meaning import motions_of_use
-from mlmg_lang.ide.occurrences import Occurrence, Sort, Statement, Symbol, occurrence_at, statements_at
+from mlmg_lang.ide.occurrences import Occurrence, Sort, Statement, Symbol, occurrence_at, place_of, statements_at
 from mlmg_lang.ide.sayings import Understood, state_before, understood
 from mlmg_lang.ide.signature import described
 from mlmg_lang.ide.touching import tokens_at
@@ -28,7 +30,7 @@ from mlmg_lang.planning import typed
 from mlmg_lang.planning.names import Names
 from mlmg_lang.rendering.wording import safe
 from mlmg_lang.rules import read_rule
-from mlmg_lang.source import Span
+from mlmg_lang.source import Source, Span
 from mlmg_lang.spelling import joined, normal
 
 _MOST: Final = 8
@@ -79,6 +81,18 @@ def hover(analysis: Analysis, offset: int, anatomy: Anatomy | None = None) -> Ho
         parts = tuple(_Teller(analysis, anatomy, offset, statements).of(found))
         return Hover(found.span, parts) if parts else None
     return _quantity_at(analysis, statements, offset) or _word_at(analysis, offset)
+
+
+def hover_declaration(analysis: Analysis, symbol: Symbol) -> tuple[Part, ...]:
+    """Return what there is to say of a script's own name where it gets its meaning, and where that is."""
+    span = declaration(analysis, symbol)
+    found = None if span is None else hover(analysis, span.start)
+    if span is None or found is None:
+        return ()
+    place = place_of(analysis.source, span)
+    line, _ = Source(analysis.source.file(span.start)[0].text).position(place.span.start)
+    where = "" if place.file == analysis.source.name else f" of {code(PurePath(place.file).name)}"
+    return (*found.parts, Part(f"defined in line {line}{where}"))
 
 
 def hover_mistakes(analysis: Analysis, offset: int, *, errors: bool) -> Hover | None:
@@ -179,8 +193,13 @@ def _word_at(analysis: Analysis, offset: int) -> Hover | None:
     for token in reversed(tokens[max(at - 2, 0) : at]):
         span = token.span.shifted(further)
         if offset <= span.end and token.type in WORDS:
-            return Hover(span, (Part(f"{code(token.text)}: {WORDS[token.type]}"),))
+            return Hover(span, (of_word(token.text, WORDS[token.type]),))
     return None
+
+
+def of_word(word: str, says: str) -> Part:
+    """Return what is told of a word of the language that says something."""
+    return Part(f"{code(word)}: {says}")
 
 
 # --- names -----------------------------------------------------------------------------------------------

@@ -36,6 +36,7 @@ class Completion(NamedTuple):
     motions : that it stands for.
     says : a few words about it.
     beside : the graph that what stands left of it and of `and` is on, if the two are shared out over graphs.
+    owner : of a parameter, and of an argument's name, the definition that it belongs to, in NFC.
     """
 
     text: str
@@ -45,6 +46,7 @@ class Completion(NamedTuple):
     motions: tuple[str, ...] = ()
     says: str = ""
     beside: str | None = None
+    owner: str = ""
 
 
 class Fits(Protocol):
