@@ -487,6 +487,25 @@ def test_hovering_over_what_only_has_a_warning_tells_first_what_it_is(client):
     assert "warning: `greet` is defined" in said
 
 
+def test_a_definition_is_not_taken_out_that_an_open_script_may_need(client, tmp_path):
+    text, (uri, user) = (
+        "let greet = WALK\ngreet for 1 sec\n",
+        [(tmp_path / one).as_uri() for one in ("greet.ms", "user.ms")],
+    )
+    (tmp_path / "greet.ms").write_text(text, encoding="utf-8")
+    place = {"start": {"line": 0, "character": 5}, "end": {"line": 0, "character": 5}}
+    asked = {"textDocument": {"uri": uri}, "range": place, "context": {"diagnostics": [], "only": ["refactor.inline"]}}
+    client.open(uri, text)
+    (alone,) = client.ask("textDocument/codeAction", asked)
+    client.open(user, 'use "greet.ms"\ngreet\n')
+    client.diagnostics(user)
+    (used,) = client.ask("textDocument/codeAction", asked)
+    assert alone["title"] == f"{used['title']}, and take it out"
+    assert [len(one["edit"]["changes"][uri]) for one in (alone, used)] == [2, 1]
+    for one in (uri, user):
+        client.close_text(one)
+
+
 def test_a_mistake_can_be_explained_by_a_command_of_the_menu(client):
     opened(client, "WLAK for 1 sec\nWLAK\n")
     place = {"start": {"line": 0, "character": 0}, "end": {"line": 1, "character": 2}}

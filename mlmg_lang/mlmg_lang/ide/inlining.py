@@ -28,11 +28,15 @@ class Inlining:
     edits: tuple[Edit, ...]
 
 
-def inlinings(analysis: Analysis, within: Span) -> Iterator[Inlining]:
-    """Yield what puts in a definition that a stretch touches the name of: this one use, or all with the definition.
+def inlinings(analysis: Analysis, within: Span, others: Iterable[Analysis] = ()) -> Iterator[Inlining]:
+    """Yield what puts in a definition that a stretch touches the name of: this one use, or all.
 
-    Nothing for definitions and uses with mistakes; nor for all uses of a script with a mistake in any definition, or
-    with a statement that cannot be read.
+    With all uses goes the definition, unless other scripts may need it. Nothing for definitions and uses with mistakes;
+    nor for all uses of a script with a mistake in any definition, or with a statement that cannot be read.
+
+    Parameters
+    ----------
+    others : scripts that may use this one.
     """
     for piece, further in pieces_touching(analysis, Span(within.start, within.start)):  # a name is in one
         for item in piece.items:
@@ -40,7 +44,7 @@ def inlinings(analysis: Analysis, within: Span) -> Iterator[Inlining]:
                 if _touches(use.node.name.span, further, within):
                     yield from _of_use(analysis, use)
             if isinstance(item, syntax.Let) and _touches(item.name.span, further, within):
-                yield from _of_all(analysis, item)
+                yield from _of_all(analysis, item, others)
 
 
 def _touches(name: Span, further: int, within: Span) -> bool:
@@ -81,7 +85,7 @@ def _of_use(analysis: Analysis, use: _Use) -> Iterator[Inlining]:
         yield Inlining(f"put in what `{let.name.text}` says", (Edit(analysis.made.now(use.node.span), text),))
 
 
-def _of_all(analysis: Analysis, let: syntax.Let) -> Iterator[Inlining]:
+def _of_all(analysis: Analysis, let: syntax.Let, others: Iterable[Analysis]) -> Iterator[Inlining]:
     made = analysis.made
     definitions = made.gathered.definitions
     if definitions.find(let.name) is not let or has_errors(made.defined) or any(map(attrgetter("broken"), made.lines)):
@@ -93,10 +97,20 @@ def _of_all(analysis: Analysis, let: syntax.Let) -> Iterator[Inlining]:
             return
         at = use.node.span
         edits.append(Edit(at.shifted(further), text))
-    removal = Edit(_with_separator(made.source.text, made.now(let.span)), "")
     if not edits or any(_overlap(one, other) for one, other in pairwise(_sorted(edits))):
         return
-    yield Inlining(f"put in what `{let.name.text}` says everywhere, and take it out", _sorted([*edits, removal]))
+    title = f"put in what `{let.name.text}` says everywhere"
+    if _is_for_others(analysis, others):
+        yield Inlining(title, _sorted(edits))
+    else:
+        removal = Edit(_with_separator(made.source.text, made.now(let.span)), "")
+        yield Inlining(f"{title}, and take it out", _sorted([*edits, removal]))
+
+
+def _is_for_others(analysis: Analysis, others: Iterable[Analysis]) -> bool:
+    """Return whether a script is there for others, as it has nothing but definitions, or is used by one of some."""
+    name = analysis.source.name
+    return not analysis.made.lines.words("used") or any(file.name == name for one in others for file in one.source.used)
 
 
 def _uses_of(made: InPieces, let: syntax.Let) -> Iterator[tuple[_Use, int]]:

@@ -1,6 +1,6 @@
 """What can be rewritten without another meaning: `ide.actions`."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import fields, is_dataclass
 from typing import Any
 
@@ -165,6 +165,27 @@ def test_what_is_selected_of_a_command_becomes_a_definition(
 )
 def test_what_a_definition_says_is_put_in(text: str, expected: list[str], reference: Catalog) -> None:
     assert results(text, reference, Kind.INLINE) == expected
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("let ¦A = WALK\nlet B = A or TALK\n", ["let A = WALK\nlet B = (WALK) or TALK\n"]),
+        ("# c\nlet B = A; let A¦ = WALK", ["# c\nlet B = (WALK); let A = WALK"]),
+        ("let A = WALK\nlet ¦B = A\n", []),
+    ],
+)
+def test_a_definition_stays_in_a_script_of_nothing_else(text: str, expected: list[str], reference: Catalog) -> None:
+    assert results(text, reference, Kind.INLINE) == expected
+
+
+def test_a_definition_stays_in_a_script_that_another_uses(reference: Catalog, marked: Callable[..., Any]) -> None:
+    text, within = at("let ¦A = WALK\nA for 2 sec\n")
+    own = analyse(Source(text, "g.ms"), reference)
+    user, other = (marked(f"{first}¦WALK\n", name="user.ms", g=text).analysis for first in ('use "g.ms"\n', ""))
+    titles = [[one.title for one in actions(own, within, others)] for others in ((user,), (other,))]
+    assert titles == [["put in what `A` says everywhere"], ["put in what `A` says everywhere, and take it out"]]
+    assert changed(text, actions(own, within, (user,))[0]) == "let A = WALK\n(WALK) for 2 sec\n"
 
 
 @pytest.mark.parametrize(
