@@ -163,10 +163,10 @@ def _is_odd(token: Token) -> bool:
 
 
 def _is_told_elsewhere(token: Token) -> bool:
-    """Return whether a sign is left that means nothing either, alone or before a number: the line tells more of it."""
+    """Return whether a sign is left that means nothing either, but before a name or number: the line tells more of it."""
     rest = _cut(token)
     first = next(rest)
-    return first.type == "UNKNOWN" and all(part.type in ("INTEGER", "DECIMAL") for part in rest)
+    return first.type == "UNKNOWN" and all(part.type in ("INTEGER", "DECIMAL", "NAME") for part in rest)
 
 
 def _wide(tokens: Sequence[Token], source: Source) -> Diagnostic:

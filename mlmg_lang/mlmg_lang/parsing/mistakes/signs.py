@@ -65,7 +65,8 @@ def stray_character(stuck: Stuck) -> Mistake | None:
         return None
     if token.text == "[" and (closing := _square(stuck)) is not None:
         return _in_square(stuck, closing)
-    shown = f"`{token.text}`" if token.text.isprintable() else f"the character U+{ord(token.text[0]):04X}"
+    written = stuck.source.slice(token.span)  # it may be one of another keyboard
+    shown = f"`{written}`" if written.isprintable() else f"the character U+{ord(written[0]):04X}"
     message = f"{shown} means nothing in Motion Script"
     if token.text in _MEANT:
         kind, text = _MEANT[token.text]
