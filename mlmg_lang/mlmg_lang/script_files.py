@@ -18,6 +18,7 @@ _HEAD = 200
 """So many bytes at the beginning of a file tell whether it is a clip."""
 _MOST_LISTED = 10_000
 """So many files of a folder are looked at for scripts among them."""
+_ALLOWING = "`--allow-use FOLDER`, or `mlmg.allowUse` in an editor,"
 
 
 def read_script(path: str | Path) -> tuple[Source, tuple[Diagnostic, ...]]:
@@ -72,7 +73,7 @@ class UsedFiles:
         except ValueError:  # there is a NUL in it, or half a character
             return f"`{path}` cannot be the path of a file"
         if not self._is_allowed(real):
-            return f"`{path}` lies outside of the script's own folders; `--allow-use FOLDER` would allow it"
+            return f"`{path}` lies outside of the script's own folders; {_ALLOWING} would allow it"
         if real == Path(os.path.realpath(self.script)):
             name = self.script
         try:

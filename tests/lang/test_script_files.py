@@ -85,7 +85,9 @@ def found(path: str, script: str = "plays/main.ms", user: str | None = None, all
     return outcome if isinstance(outcome, str) else outcome[0].name
 
 
-OUTSIDE = "lies outside of the script's own folders; `--allow-use FOLDER` would allow it"
+OUTSIDE = (
+    "lies outside of the script's own folders; `--allow-use FOLDER`, or `mlmg.allowUse` in an editor, would allow it"
+)
 
 
 def test_a_used_file_is_found_from_the_folder_of_the_one_that_names_it(folder: Path) -> None:

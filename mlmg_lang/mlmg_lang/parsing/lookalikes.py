@@ -163,7 +163,7 @@ def _is_odd(token: Token) -> bool:
 
 
 def _is_told_elsewhere(token: Token) -> bool:
-    """Return whether a sign is left that means nothing either, but before a name or number: the line tells more of it."""
+    """Return whether a sign is left that means nothing either, before a name or number at most: the line tells more."""
     rest = _cut(token)
     first = next(rest)
     return first.type == "UNKNOWN" and all(part.type in ("INTEGER", "DECIMAL", "NAME") for part in rest)
