@@ -146,7 +146,7 @@ def hands() -> FakeCatalog:
     return HANDS
 
 
-@pytest.fixture
+@pytest.fixture(scope="session")
 def libraries() -> Mapping[str, FakeCatalog | None]:
     """Return all of them by name, and `none`."""
     return LIBRARIES

@@ -119,10 +119,11 @@ def test_the_statement_begins_where_its_first_word_does():
 
 
 def test_what_is_around_says_of_a_text_that_is_being_written_what_all_of_it_says():
+    whole = analyse(Source(WRITTEN))
     for end in CURSORS:
-        for text in (WRITTEN[:end], f"{WRITTEN[:end]}\n", WRITTEN):
-            near = cursor_at(tokens_around(analyse(Source(text)), end), end)
-            assert near == cursor_at(tokenize(Source(text)), end), text
+        for analysis in (whole, *(analyse(Source(text)) for text in (WRITTEN[:end], f"{WRITTEN[:end]}\n"))):
+            near = cursor_at(tokens_around(analysis, end), end)
+            assert near == cursor_at(tokenize(analysis.source), end), analysis.source.text
 
 
 def test_a_line_end_behind_the_text_makes_no_difference(reference, in_order):

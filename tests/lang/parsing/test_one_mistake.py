@@ -10,11 +10,11 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import pairwise
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeAlias
 
 import pytest
 
@@ -58,6 +58,10 @@ class Right:
         return [one for one in found if one.severity is Severity.ERROR]
 
 
+Slip: TypeAlias = tuple[Right, str, str]
+"""A script, what kind of a slip is made in it, and the text then."""
+
+
 @dataclass(frozen=True)
 class Page:
     """The files that a page shows, by name."""
@@ -86,6 +90,7 @@ def scripts() -> Iterator[Right]:
             yield Right(match[2], next(iter(info), "reference"), files=Page(dict(files)))
 
 
+@pytest.fixture(scope="module")
 def right_scripts(libraries: Mapping[str, Any]) -> list[Right]:
     """Return each script that is right, once, without its comments."""
     found: dict[str, Right] = {}
@@ -146,14 +151,13 @@ def _misspelt(token: Token) -> Iterator[tuple[str, str]]:
         yield "letters swapped", before[:-1] + letter + before[-1] + after
 
 
-def slips(
-    libraries: Mapping[str, Any], request: pytest.FixtureRequest, n_tried: int
-) -> Sequence[tuple[Right, str, str]]:
-    """Return right scripts, each with the kind of a slip in it and the text then: about so many, or all."""
-    every = [(script, *edit) for script in right_scripts(libraries) for edit in edits(script.text)]
+@pytest.fixture(scope="module")
+def slips(right_scripts: list[Right], request: pytest.FixtureRequest) -> Callable[[int], Sequence[Slip]]:
+    """Return a function: about how many -> so many slips in right scripts, or all of them."""
+    every = [(script, *edit) for script in right_scripts for edit in edits(script.text)]
     # Those of a kind stand beside each other, so that each kind is tried as often as it is there.
     every.sort(key=lambda one: one[1])
-    return every if request.config.getoption("--all-edits") else every[:: len(every) // n_tried]
+    return lambda n: every if request.config.getoption("--all-edits") else every[:: len(every) // n]
 
 
 def safely_mended(text: str, told: Sequence[Diagnostic]) -> str:
@@ -167,8 +171,8 @@ def safely_mended(text: str, told: Sequence[Diagnostic]) -> str:
     return text
 
 
-def test_one_slip_is_told_as_one_mistake(libraries: Mapping[str, Any], request: pytest.FixtureRequest) -> None:
-    tried = slips(libraries, request, N_TRIED)
+def test_one_slip_is_told_as_one_mistake(libraries: Mapping[str, Any], slips: Callable[[int], Sequence[Slip]]) -> None:
+    tried = slips(N_TRIED)
     wrong = [(kind, text) for script, kind, text in tried if len(script.errors(text, libraries)) > 1]
     share = len(wrong) / len(tried)
     kinds = Counter(kind for kind, _ in wrong).most_common()
@@ -177,9 +181,9 @@ def test_one_slip_is_told_as_one_mistake(libraries: Mapping[str, Any], request: 
 
 
 def test_safe_edits_of_one_slip_lead_to_no_other_error(
-    libraries: Mapping[str, Any], request: pytest.FixtureRequest
+    libraries: Mapping[str, Any], slips: Callable[[int], Sequence[Slip]]
 ) -> None:
-    tried = slips(libraries, request, N_MENDED)
+    tried = slips(N_MENDED)
     worse = []
     for script, kind, text in tried:
         told = script.errors(text, libraries)
@@ -191,7 +195,6 @@ def test_safe_edits_of_one_slip_lead_to_no_other_error(
     assert len(worse) / len(tried) <= WORSE, worse
 
 
-def test_the_edits_are_many_and_of_many_kinds(libraries: Mapping[str, Any]) -> None:
-    found = right_scripts(libraries)
-    assert len(found) > 90
-    assert len({kind for script in found for kind, _ in edits(script.text)}) > 100
+def test_the_edits_are_many_and_of_many_kinds(right_scripts: list[Right]) -> None:
+    assert len(right_scripts) > 90
+    assert len({kind for script in right_scripts for kind, _ in edits(script.text)}) > 100
