@@ -28,6 +28,7 @@ class Client:
     markdown_of_completions, markdown_of_hovers : whether what there is to read may be Markdown.
     unmarked : whether it may mark none of the things that a definition takes.
     indents : whether it can be told how to indent what a completion writes.
+    folds_lines : whether it folds whole lines only.
     versioned : whether edits may name the version that they are for.
     resolves_edits : whether it asks for the edit of a code action when that is chosen.
     progress, configuration, watches : whether it can be asked for these.
@@ -46,6 +47,7 @@ class Client:
     markdown_of_hovers: bool = False
     unmarked: bool = False
     indents: bool = False
+    folds_lines: bool = False
     versioned: bool = False
     resolves_edits: bool = False
     progress: bool = False
@@ -82,6 +84,7 @@ def client_from(capabilities: types.ClientCapabilities) -> Client:
         markdown_of_hovers="markdown" in texts("text_document.hover.content_format"),
         unmarked=bool(has("text_document.signature_help.signature_information.no_active_parameter_support")),
         indents=modes.issuperset(types.InsertTextMode),
+        folds_lines=bool(has("text_document.folding_range.line_folding_only")),
         versioned=bool(has("workspace.workspace_edit.document_changes")),
         resolves_edits="edit" in resolved,
         progress=bool(has("window.work_done_progress")),

@@ -380,6 +380,15 @@ def test_what_a_text_consists_of_is_told(client):
     assert [one["label"] for one in client.ask("textDocument/inlayHint", asked | {"range": place})] == ["who ="]
 
 
+@pytest.mark.parametrize(("lines", "last"), [(True, 1), (False, 2)])
+def test_what_closes_a_block_stays_where_the_editor_folds_whole_lines(start, lines, last):
+    client = start()
+    client.initialize({"textDocument": {"foldingRange": {"lineFoldingOnly": lines}}})
+    opened(client, "repeat 2 {\n  IDLE for 1 sec\n}\n")
+    (fold,) = client.ask("textDocument/foldingRange", {"textDocument": {"uri": URI}})
+    assert (fold["startLine"], fold["endLine"]) == (0, last)
+
+
 def test_each_word_is_coloured_by_what_it_is(client):
     opened(client, "# 😀\nlet x = WALK\nx for 3 sec\n")
     data = client.ask("textDocument/semanticTokens/full", {"textDocument": {"uri": URI}})["data"]

@@ -23,7 +23,7 @@ def folding_range(snapshot: Snapshot, _params: types.FoldingRangeParams) -> list
             position_from_offset(source, one.span.end, encoding).line,
             kind=comment if one.is_comment else None,
         )
-        for one in folding.folds(snapshot.analysis)
+        for one in folding.folds(snapshot.analysis, snapshot.client.folds_lines)
     ]
 
 

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from mlmg_lang.analysis import Analysis, InPieces
 from mlmg_lang.parsing.layout import Block, Line, lay_out
 from mlmg_lang.parsing.tokens import ENDS_PARENTHESES, Token
-from mlmg_lang.source import Span
+from mlmg_lang.source import Source, Span
 
 
 @dataclass(frozen=True, slots=True)
@@ -19,18 +19,31 @@ class Fold:
     is_comment: bool = False
 
 
-def folds(analysis: Analysis) -> tuple[Fold, ...]:
+def folds(analysis: Analysis, whole_lines: bool = False) -> tuple[Fold, ...]:
     """Return what of a script can be folded, by where it begins, the longest first; each is on several lines.
 
     Of two that begin on the same line and end on the same line, the longer is given alone.
+
+    Parameters
+    ----------
+    whole_lines : whether all of a last line is folded away: then one that only closes what is folded stays.
     """
     made = analysis.made
     found: dict[tuple[int, int], Fold] = {}
-    for fold in sorted((*_comments(made), *_in_pieces(made)), key=lambda fold: (fold.span.start, -fold.span.end)):
+    every = sorted((*_comments(made), *_in_pieces(made)), key=lambda fold: (fold.span.start, -fold.span.end))
+    for fold in (_without_closing(fold, made.source) for fold in every) if whole_lines else every:
         first, _, last, _ = made.source.location(fold.span)
         if first < last:
             found.setdefault((first, last), fold)
     return tuple(found.values())
+
+
+def _without_closing(fold: Fold, source: Source) -> Fold:
+    """Return a fold without its last line, if there is nothing on that, up to its end, but what closes."""
+    start = source.line_starts[source.position(fold.span.end)[0] - 1]
+    last = source.text[start : fold.span.end]
+    is_closing = fold.span.start < start and last.strip() != "" and not last.strip(" \t})")
+    return replace(fold, span=Span(fold.span.start, start - 1)) if is_closing else fold
 
 
 def _in_pieces(made: InPieces) -> Iterator[Fold]:

@@ -41,6 +41,27 @@ def test_blocks_parentheses_comments_and_long_commands_fold(text: str, expected:
     assert folded(text) == expected
 
 
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("repeat 2 {\nIDLE\n}\n", [(1, 2)]),
+        ("repeat 2 {\r\n  IDLE\r\n\t} # c\r\n", [(1, 2)]),
+        ("repeat 2 {\nrepeat 3 {\nIDLE\n} }; WALK", [(1, 3), (2, 3)]),
+        ("choose {\nrepeat 2 {\nIDLE\n}\n| TALK\n}", [(1, 5), (2, 3)]),
+        ("let G = (\nWALK\nor (IDLE or\nTALK)\n)", [(1, 4), (3, 4)]),
+        ("repeat 2 {\n}", []),
+        ("repeat 2 {\nIDLE }", [(1, 2)]),
+        ("repeat 2 {\n  IDLE\n\n", [(1, 2)]),
+        ("IDLE\n  with Upper-Body (\nTALK\n) for 2 sec", [(1, 4), (2, 3)]),
+        ("# a\n# }\n", [(1, 2)]),
+    ],
+)
+def test_where_whole_lines_are_folded_a_line_that_only_closes_stays(text: str, expected: list[tuple[int, int]]) -> None:
+    source = Source(text)
+    places = (source.location(fold.span) for fold in folds(analyse(source), whole_lines=True))
+    assert [(first, last) for first, _, last, _ in places] == expected
+
+
 @given(TEXTS)
 def test_of_any_text_each_fold_is_on_several_lines_and_none_is_given_twice(text: str) -> None:
     found = [(first, last) for first, last, _ in folded(text)]
@@ -52,7 +73,8 @@ def test_of_any_text_each_fold_is_on_several_lines_and_none_is_given_twice(text:
 @given(TEXTS, TEXTS, TEXTS)
 def test_after_an_edit_folds_are_those_of_the_text_afresh(before: str, new: str, after: str) -> None:
     edited = analyse_again(analyse(Source(f"{before}\n{after}")), Source(f"{before}\n{new}\n{after}"))
-    assert folds(edited) == folds(analyse(edited.source))
+    for whole_lines in (False, True):
+        assert folds(edited, whole_lines) == folds(analyse(edited.source), whole_lines)
 
 
 def test_comments_that_come_to_stand_together_fold_together() -> None:
