@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Final, TypeVar
 
@@ -91,13 +91,14 @@ class InPieces:
     ----------
     source : with the files that it uses.
     places : its pieces, and where addresses are now.
-    defined : what is wrong with its definitions. unused : which of them are not used.
+    defined : what is wrong with its definitions.
     untold : says where mistakes begin that are not told, if there are too many.
+    room : the first address that nothing has had.
+    unused : says which definitions are not used.
     start : the motion that it starts in; empty without a library.
     resolution : what it plays, if all of it was resolved together.
     played : else, what each of `pieces` plays; none without a library.
     keys : by line, those of its steps; none without a library, or if all was resolved together.
-    room : the first address that nothing has had.
     serial : how many times pieces have changed; until they do, addresses are offsets.
     """
 
@@ -105,14 +106,14 @@ class InPieces:
     places: Places
     gathered: Gathered
     defined: tuple[Diagnostic, ...]
-    unused: tuple[Diagnostic, ...]
     untold: tuple[Diagnostic, ...]
-    start: str
-    resolution: Resolution | None
-    played: Chunks[Played]
-    keys: Chunks[range]
     room: int
-    serial: int
+    unused: tuple[Diagnostic, ...] = ()
+    start: str = ""
+    resolution: Resolution | None = None
+    played: Chunks[Played] = field(default_factory=Chunks)
+    keys: Chunks[range] = field(default_factory=Chunks)
+    serial: int = 0
 
     @property
     def lines(self) -> Chunks[Piece]:

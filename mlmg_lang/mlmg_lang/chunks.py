@@ -21,20 +21,20 @@ _SIZE: Final = 128
 """So many values a chunk has at first; it has up to twice as many."""
 
 
-def all_of(values: Iterable[object], name: str) -> Iterator[Any]:
-    """Yield what values have in their tuples of a name, as fast as Python can: there are many with nothing in them."""
-    return chain.from_iterable(map(attrgetter(name), values))
+def all_of(values: Iterable[object], attribute: str) -> Iterator[Any]:
+    """Chain the tuples that values have as an attribute; most are empty, so that no loop of Python's goes over them."""
+    return chain.from_iterable(map(attrgetter(attribute), values))
 
 
 @dataclass(frozen=True, slots=True)
 class _Chunk(Generic[T_co]):
-    """Some values in a row. `_kept`: what has been found out of them, by what was asked."""
+    """Some values in a row. `_kept`: what has been found out of them, by who found it out and of which attribute."""
 
     values: tuple[T_co, ...]
     _kept: dict[tuple[Callable[..., Any], str], Any] = field(default_factory=dict)
 
     def find(self, asked: tuple[Callable[[Sequence[T_co], str], R], str]) -> R:
-        """Return what a function says of the values and a name."""
+        """Return what a function says of an attribute of the values."""
         kept = self._kept
         if asked not in kept:
             kept[asked] = asked[0](self.values, asked[1])
@@ -118,58 +118,57 @@ class Chunks(Sequence[T_co]):
 
     # --- what is found out of the values ---
 
-    def each(self, work: Callable[[Sequence[T_co], str], R], name: str) -> list[R]:
-        """Return what a pure function says of the values of each chunk, and the name of an attribute.
+    # An attribute may also be one of an attribute: `balance.parts`.
 
-        It is kept as long as the chunk.
-        """
-        asked = (work, name)
+    def each(self, work: Callable[[Sequence[T_co], str], R], attribute: str) -> list[R]:
+        """Return, by chunk, what a pure function of values and the name of an attribute gives; kept with the chunk."""
+        asked = (work, attribute)
         return [chunk.find(asked) for chunk in self._chunks]
 
-    def each_before(self, number: int, work: Callable[[Sequence[T_co], str], R], name: str) -> Iterator[R]:
+    def each_before(self, number: int, work: Callable[[Sequence[T_co], str], R], attribute: str) -> Iterator[R]:
         """Yield what `each` has of the chunks before a value, then what is to be said of those before it in its own."""
         chunk = self._chunk_of(number)
         for whole in self._chunks[:chunk]:
-            yield whole.find((work, name))
+            yield whole.find((work, attribute))
         if number > self._starts[chunk]:
-            yield work(self[self._starts[chunk] : number], name)
+            yield work(self[self._starts[chunk] : number], attribute)
 
-    def all(self, name: str) -> Iterator[Any]:
-        """Yield what values have in their tuples of a name."""
-        return chain.from_iterable(self.each(_all, name))
+    def all(self, attribute: str) -> Iterator[Any]:
+        """Chain the tuples that values have as an attribute: yield all that is in them."""
+        return chain.from_iterable(self.each(_all, attribute))
 
-    def sums(self, name: str) -> Sums:
-        """Return the sums of numbers that values have, up to before each; last, that of all."""
-        return Sums(self._starts, self.each(_sums, name))
+    def sums(self, attribute: str) -> Sums:
+        """Return the sums of an attribute, a number, over the values before each; last, over all."""
+        return Sums(self._starts, self.each(_sums, attribute))
 
-    def has(self, name: str) -> bool:
-        """Return whether a value has something of a name."""
-        return any(self.each(_where, name))
+    def has(self, attribute: str) -> bool:
+        """Return whether an attribute is true of any value, as `if` would take it."""
+        return any(self.each(_where, attribute))
 
-    def where(self, name: str, first: int = 0) -> Iterator[int]:
-        """Yield the numbers from one on of the values that have something of a name."""
-        asked = (_where, name)
+    def where(self, attribute: str, first: int = 0) -> Iterator[int]:
+        """Yield the numbers, from one on, of the values that an attribute is true of."""
+        asked = (_where, attribute)
         for chunk in range(self._chunk_of(first), len(self._chunks)):
             start, found = self._starts[chunk], self._chunks[chunk].find(asked)
             yield from (start + at for at in found[bisect_left(found, first - start) :])
 
-    def where_back(self, name: str, end: int) -> Iterator[int]:
-        """Yield the numbers before one of the values that have something of a name, the last first."""
-        asked = (_where, name)
+    def where_back(self, attribute: str, end: int) -> Iterator[int]:
+        """Yield the numbers, before one, of the values that an attribute is true of, the last first."""
+        asked = (_where, attribute)
         for chunk in reversed(range(min(self._chunk_of(end) + 1, len(self._chunks)))):
             start, found = self._starts[chunk], self._chunks[chunk].find(asked)
             yield from (start + at for at in reversed(found[: bisect_left(found, end - start)]))
 
-    def where_among(self, name: str, wanted: frozenset[str]) -> Iterator[int]:
-        """Yield the numbers of the values that have one of some words in their sets of a name."""
-        for start, chunk, words in zip(self._starts, self._chunks, self.each(_words, name), strict=False):
+    def where_among(self, attribute: str, wanted: frozenset[str]) -> Iterator[int]:
+        """Yield the numbers of the values of which an attribute, a set of words, has one of those that are wanted."""
+        for start, chunk, words in zip(self._starts, self._chunks, self.each(_words, attribute), strict=False):
             if not wanted.isdisjoint(words):
-                has = attrgetter(name)
+                has = attrgetter(attribute)
                 yield from (start + at for at, value in enumerate(chunk.values) if not wanted.isdisjoint(has(value)))
 
-    def words(self, name: str) -> frozenset[str]:
-        """Return all words that values have in their sets of a name."""
-        return frozenset[str]().union(*self.each(_words, name))
+    def words(self, attribute: str) -> frozenset[str]:
+        """Return the union of an attribute, a set of words, over all values."""
+        return frozenset[str]().union(*self.each(_words, attribute))
 
 
 class Sums(Sequence[int]):
@@ -247,17 +246,17 @@ def _parted(values: tuple[S, ...]) -> tuple[_Chunk[S], ...]:
     return tuple(_Chunk(values[first:end]) for first, end in pairwise(bounds))
 
 
-def _all(values: Sequence[object], name: str) -> tuple[Any, ...]:
-    return tuple(all_of(values, name))
+def _all(values: Sequence[object], attribute: str) -> tuple[Any, ...]:
+    return tuple(all_of(values, attribute))
 
 
-def _sums(values: Sequence[object], name: str) -> tuple[int, ...]:
-    return tuple(accumulate(map(attrgetter(name), values), initial=0))
+def _sums(values: Sequence[object], attribute: str) -> tuple[int, ...]:
+    return tuple(accumulate(map(attrgetter(attribute), values), initial=0))
 
 
-def _where(values: Sequence[object], name: str) -> tuple[int, ...]:
-    return tuple(compress(range(len(values)), map(attrgetter(name), values)))
+def _where(values: Sequence[object], attribute: str) -> tuple[int, ...]:
+    return tuple(compress(range(len(values)), map(attrgetter(attribute), values)))
 
 
-def _words(values: Sequence[object], name: str) -> frozenset[str]:
-    return frozenset[str]().union(*map(attrgetter(name), values))
+def _words(values: Sequence[object], attribute: str) -> frozenset[str]:
+    return frozenset[str]().union(*map(attrgetter(attribute), values))

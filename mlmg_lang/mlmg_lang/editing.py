@@ -116,7 +116,12 @@ def _turn(lines: Iterable[Piece], name: str) -> tuple[int, Around]:
 
 
 class CutElsewhere(Exception):
-    """In other braces a script is cut into other pieces: one of them is no brace any longer, or there are too many."""
+    """A line behind an edit is no line by itself any longer, so that all is to be read afresh.
+
+    In the braces that are around it now, a sign in it may be a stray one, which is left out before a script is cut
+    into lines: its text would be several lines, or its parentheses would have other partners. Or it would stand in
+    more braces than are read.
+    """
 
 
 @dataclass(frozen=True, slots=True)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from mlmg_lang.analysis import Analysis, Found, InPieces, Question
 from mlmg_lang.blocks import Statement, grouped
@@ -71,9 +71,14 @@ def analyse_for(source: Source, question: Question) -> Analysis:
     lines = read.replaced(reader.all_understood(read, range(len(read))))
     room = gathered.source.end + 1
     places = Places(grouped(lines), lines, range(len(source.text) + 1, room))
-    none: Chunks[Any] = Chunks()
-    untold = _untold(lines)
-    made = InPieces(gathered.source, places, gathered, reader.defined(), (), untold, "", None, none, none, room, 0)
+    made = InPieces(
+        source=gathered.source,
+        places=places,
+        gathered=gathered,
+        defined=reader.defined(),
+        untold=_untold(lines),
+        room=room,
+    )
     made = replace(made, unused=tuple(_unused(made)))
     found = Found(wrong_as_read(made))
     if question.names is None or question.catalog is None:

@@ -40,21 +40,25 @@ _STATEMENT = frozenset({""})
 class Piece:
     """What a piece says that no block lies across: a statement, or a line with braces that have partners in others.
 
+    It is read first; what it means, from `expanded` on, is found out by `understanding`.
+
     Attributes
     ----------
     size : in code points.
-    address : of its beginning.
-    items : without the blocks that lie across it.
-    marks : its items, with what is in it of blocks that lie across it; none if there are no such blocks.
-    around : the braces that it was read in; of one that says the same in all, perhaps long ago.
-    misread : what is wrong with its text.
-    counted : how many mistakes in texts were told before it when it was read, and with it; see `counted`.
-    expanded : its items with what is defined put in. n_nodes : how large that has made them.
-    statements : none without a library.
-    said : what is wrong with what it means.
-    retold : what is told in place of `misread` and `said`, where there are spaces in names; else None.
-    is_faulty : whether something may be wrong with its names, other than how they are spelt.
-    n_named : how much is said to be wrong with them; -1 if it was not worked out, as there is too much before it.
+    address : of its first character.
+    items : its statements and the blocks that are whole in it; nothing of a block that goes on in other pieces.
+    marks : if there is such a block, `items` with its braces, bars and weights between them; else empty.
+    around : the braces around it when it was read. If they do not matter (see `depends`), it is not read again when
+        there are others, so these may be those of some text long ago.
+    misread : the mistakes in its text.
+    counted : from how many mistakes are told in texts before it, to how many with its own, when it was read.
+    expanded : `items` with what is defined put in. n_nodes : how many nodes that has put in.
+    statements : `expanded` with types; empty without a library.
+    said : the mistakes in what it means.
+    retold : if names of the library are written with spaces in them, what is told in place of `misread` and `said`;
+        else None.
+    is_faulty : whether names in it may be used wrongly; how they are spelt does not count.
+    n_named : how many mistakes in names are told of it; -1 if they were not looked for, as too many are told before it.
     """
 
     size: int
