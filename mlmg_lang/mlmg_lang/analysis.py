@@ -117,7 +117,7 @@ class InPieces:
 
     @property
     def lines(self) -> Chunks[Piece]:
-        """Return the pieces that no block lies across."""
+        """Return its logical lines: the pieces one after the other, those in blocks too."""
         return self.places.lines
 
     @property

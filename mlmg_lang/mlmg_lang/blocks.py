@@ -45,7 +45,7 @@ class WholeBlock:
     solid = True
 
     @property
-    def n_lines(self) -> int:
+    def n_logical_lines(self) -> int:
         """Return how many pieces it is."""
         return len(self.lines)
 

@@ -51,7 +51,7 @@ class Spot:
 
 def reread(before: InPieces, source: Source, edit: Edit) -> Spot:
     """Return the stretch that an edit touches, with the line before it: what follows could go on with that."""
-    lines, starts = before.lines, before.places.line_starts
+    lines, starts = before.lines, before.places.logical_line_starts
     last_whole = before.places.line_at(edit.span.start) - 1
     first = next((at for at in range(last_whole, -1, -1) if lines[at].solid), 0)
     end = min(starts.last_to(edit.span.end) + 1, len(lines))
@@ -73,7 +73,7 @@ def without_same(before: InPieces, spot: Spot, new: Sequence[Piece]) -> tuple[in
 
     Those have been read only to see that nothing is joined to them.
     """
-    starts, first, end = before.places.line_starts, spot.first, spot.end
+    starts, first, end = before.places.logical_line_starts, spot.first, spot.end
     old = _with_texts(before.lines[first:end], before.source.text[starts[first] : starts[end]])
     now = _with_texts(new, spot.source.text)
     n_first = _n_same(old, now)
@@ -309,7 +309,7 @@ def regrouped(before: InPieces, change: Change) -> Change:
         return replace(change, regrouping=Regrouping(change.first, change.n_new, change.end, others))
     first, new_pieces, end, room = _grouped_again(before, change)
     pieces: Chunks[Statement] = before.pieces.spliced(first, end, new_pieces)
-    first_lines = pieces.sums("n_lines")
+    first_lines = pieces.sums("n_logical_lines")
     changed: dict[int, Statement] = {}
     for number in change.numbers:
         at = first_lines.last_to(number)

@@ -77,7 +77,7 @@ class Piece:
     is_faulty: bool = False
     n_named: int = 0
 
-    n_lines = 1
+    n_logical_lines = 1
     has_own_address = False
 
     @cached_property

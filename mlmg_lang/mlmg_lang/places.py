@@ -21,7 +21,7 @@ class Places:
     Attributes
     ----------
     pieces : statements that stand in no block, and blocks whole.
-    lines : the pieces that no block lies across.
+    lines : the logical lines: the pieces one after the other, those in blocks too.
     files : the addresses of the files that are behind it.
     """
 
@@ -35,18 +35,18 @@ class Places:
         return self.pieces.sums("size")
 
     @cached_property
-    def line_starts(self) -> Sums:
-        """Return where the lines begin; last, where the script ends."""
+    def logical_line_starts(self) -> Sums:
+        """Return where `lines` begin, each of which may be several lines of the text; last, where the script ends."""
         return self.lines.sums("size")
 
     @cached_property
     def first_lines(self) -> Sums:
         """Return the number of the first line of each piece; last, how many lines there are."""
-        return self.pieces.sums("n_lines")
+        return self.pieces.sums("n_logical_lines")
 
     @cached_property
     def rows(self) -> Sums:
-        """Return how many line ends there are before each line, which may be several of the text; last, in all."""
+        """Return how many line ends of the text there are before each of `lines`; last, in all."""
         return self.lines.sums("n_ends")
 
     def piece_at(self, offset: int) -> int:
@@ -55,7 +55,7 @@ class Places:
 
     def line_at(self, offset: int) -> int:
         """Return the number of the line that an offset is in; the end of the script is in its last."""
-        return min(self.line_starts.last_to(offset), len(self.lines) - 1)
+        return min(self.logical_line_starts.last_to(offset), len(self.lines) - 1)
 
     def row(self, number: int) -> int:
         """Return how many line ends there are before a piece."""
@@ -76,7 +76,7 @@ class Places:
     @cached_property
     def _stretches(self) -> list[tuple[int, int, int]]:
         """Return address, size and place of stretches that stand together, in the order of the addresses."""
-        lines = _placed(self.line_starts, self.lines.each(_together, "address"))
+        lines = _placed(self.logical_line_starts, self.lines.each(_together, "address"))
         if self.pieces is self.lines:
             return sorted(lines)
         return sorted(chain(lines, _placed(self.starts, self.pieces.each(_own, "address"))))
@@ -128,7 +128,7 @@ class Addressed(Source):
         offset = self.places(Span(offset, offset)).start
         if offset > len(self.text):
             return super().position(offset)
-        starts, number = self.places.line_starts, self.places.line_at(offset)
+        starts, number = self.places.logical_line_starts, self.places.line_at(offset)
         piece = Source(self.text[starts[number] : starts[number + 1]])
         line, column = piece.position(offset - starts[number])
         return self.places.rows[number] + line, column

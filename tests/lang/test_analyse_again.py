@@ -228,7 +228,7 @@ def check(before: Analysis, text: str, library: Any, start: str | None = None) -
 def extents(analysis: Analysis) -> tuple[list[str], list[int]]:
     """Return the texts of the pieces, and where those begin that stand in no block."""
     made = analysis.made
-    ends = pairwise(made.places.line_starts)
+    ends = pairwise(made.places.logical_line_starts)
     return [made.source.text[start:end] for start, end in ends], list(made.places.starts)
 
 

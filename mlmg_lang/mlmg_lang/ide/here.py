@@ -29,7 +29,7 @@ def tokens_around(analysis: Analysis, offset: int) -> tuple[Token, ...]:
     Those of a whole script are put together when somebody asks for them, which takes longer than all else here.
     """
     made = analysis.made
-    starts, lines = made.places.line_starts, made.lines
+    starts, lines = made.places.logical_line_starts, made.lines
     at = made.places.line_at(offset)
     first = next((number for number in range(at - 1, -1, -1) if lines[number].solid), 0)
     first = min((first, *_open_before(lines, first)))
@@ -52,7 +52,7 @@ def _around(made: InPieces, offset: int, first: int, end: int) -> tuple[range, r
     """Return the lines of the block at an offset that stand before and behind some."""
     starts = made.places.starts
     at = made.places.piece_at(offset)
-    whole = (bisect_left(made.places.line_starts, one) for one in starts[at : at + 2])
+    whole = (bisect_left(made.places.logical_line_starts, one) for one in starts[at : at + 2])
     return range(min(next(whole), first), first), range(end, next(whole, end))
 
 

@@ -116,7 +116,7 @@ def _is_for_others(analysis: Analysis, others: Iterable[Analysis]) -> bool:
 def _uses_of(made: InPieces, let: syntax.Let) -> Iterator[tuple[_Use, int]]:
     """Yield where a script uses a definition, in the order of the text, each with how far from its address it is."""
     name = normal(let.name.text)
-    for line, start in zip(made.lines, made.places.line_starts, strict=False):
+    for line, start in zip(made.lines, made.places.logical_line_starts, strict=False):
         if name in line.used or line.defining:
             uses = (use for item in line.items if item is not let for use in _uses(item))
             yield from ((use, start - line.address) for use in uses if normal(use.node.name.text) == name)

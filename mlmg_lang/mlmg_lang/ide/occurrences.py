@@ -150,7 +150,7 @@ def statements_at(made: InPieces, offset: int) -> list[Statement]:
 
 def _items_at(made: InPieces, offset: int) -> tuple[Sequence[syntax.Item], int]:
     """Return the items among which those at an offset are, and what makes offsets of their addresses."""
-    starts = made.places.line_starts
+    starts = made.places.logical_line_starts
     if offset <= starts[-1]:
         number = made.places.line_at(offset)
         line = made.lines[number]

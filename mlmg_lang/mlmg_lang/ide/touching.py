@@ -33,4 +33,4 @@ def tokens_at(analysis: Analysis, offset: int) -> tuple[Sequence[Token], int]:
         return tokenize(Source(file.text)), base
     number = made.places.line_at(offset)
     line = made.lines[number]
-    return line.tokens, made.places.line_starts[number] - line.address
+    return line.tokens, made.places.logical_line_starts[number] - line.address
