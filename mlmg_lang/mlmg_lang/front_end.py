@@ -160,7 +160,8 @@ def _read_again(before: InPieces, source: Source) -> Change | None:
 
     None where signs make comments of whatever stands between them, or braces stand in too many others.
     """
-    from mlmg_lang.editing import Change, edit_between, reread, without_same
+    from mlmg_lang.editing import Change
+    from mlmg_lang.rereading import edit_between, reread, without_same
 
     spot = reread(before, source, edit_between(before.source.text, source.text))
     around, size = spot.around, len(spot.source.text)
@@ -175,7 +176,7 @@ def _read_again(before: InPieces, source: Source) -> Change | None:
 
 def _read_behind(before: InPieces, change: Change) -> Change | None:
     """Return a change with what it makes of the lines behind it; None where these are cut elsewhere."""
-    from mlmg_lang.editing import CutElsewhere, behind, read_behind
+    from mlmg_lang.rereading import CutElsewhere, behind, read_behind
 
     made, end = change.made, change.first + change.n_new
     was, now = behind(before.lines, change.end), behind(made.lines, end)

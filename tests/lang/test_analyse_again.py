@@ -323,7 +323,7 @@ def test_of_too_many_mistakes_the_same_are_told_as_afresh(
     lines = (*LINES, *mistaken, *mistaken, *DEFINING)
     text = "".join(data.draw(st.lists(st.sampled_from(lines), max_size=20)))
     with pytest.MonkeyPatch.context() as patch:
-        for module in ("parsing.parse", "planning.plan", "pieces", "editing", "understanding"):
+        for module in ("parsing.parse", "planning.plan", "pieces", "rereading", "understanding"):
             patch.setattr(f"mlmg_lang.{module}.MAX_MISTAKES", most)
         analysis = analyse(Source(text), libraries[name], None, FILES)
         for edit in data.draw(line_edits(*lines)):
