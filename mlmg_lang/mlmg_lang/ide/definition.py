@@ -7,16 +7,8 @@ from typing import Protocol
 
 from mlmg_lang.analysis import Analysis
 from mlmg_lang.ide.layers import graph_at
-from mlmg_lang.ide.occurrences import (
-    Occurrence,
-    Place,
-    Sort,
-    Symbol,
-    occurrence_at,
-    place_of,
-    reader_of,
-    statements_at,
-)
+from mlmg_lang.ide.occurrences import Occurrence, Place, Sort, Symbol, occurrence_at, place_of, reader_of
+from mlmg_lang.ide.statements import statements_at
 from mlmg_lang.parsing import syntax
 from mlmg_lang.source import Span
 from mlmg_lang.spelling import normal

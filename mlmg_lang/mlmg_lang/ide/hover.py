@@ -17,9 +17,10 @@ from mlmg_lang.diagnostics import Diagnostic, Severity
 from mlmg_lang.ide.definition import declaration
 from mlmg_lang.ide.layers import graph_at
 from mlmg_lang.ide.meaning import motions_of_use
-from mlmg_lang.ide.occurrences import Occurrence, Sort, Statement, Symbol, occurrence_at, place_of, statements_at
+from mlmg_lang.ide.occurrences import Occurrence, Sort, Symbol, occurrence_at, place_of
 from mlmg_lang.ide.sayings import Understood, state_before, understood
 from mlmg_lang.ide.signature import described
+from mlmg_lang.ide.statements import Statement, statements_at
 from mlmg_lang.ide.touching import tokens_at
 from mlmg_lang.ide.words import UNIT_SAYS, WORDS
 from mlmg_lang.ide.written import written

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from mlmg_lang.analysis import Analysis
-from mlmg_lang.ide.occurrences import Statement, statements_at
 from mlmg_lang.ide.sayings import understood
+from mlmg_lang.ide.statements import Statement, statements_at
 from mlmg_lang.parsing import syntax
 from mlmg_lang.source import Span
 

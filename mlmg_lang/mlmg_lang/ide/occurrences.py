@@ -1,20 +1,18 @@
 """The names in a script and in the files that it uses: where each stands, and what it stands for.
 
 A script is asked statement by statement, and what does not hold a name is not looked at: there may be very many.
-Statements are kept with addresses (see `pieces`); what is given out has offsets.
+What is given out has offsets.
 """
 
 from __future__ import annotations
 
-import re
-from bisect import bisect_right
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from typing import Final
-from unicodedata import normalize
 
-from mlmg_lang.analysis import Analysis, InPieces
+from mlmg_lang.analysis import Analysis
+from mlmg_lang.ide.statements import Statement, statements_at, statements_naming
 from mlmg_lang.parsing import syntax
 from mlmg_lang.parsing.build_syntax import name_from_token
 from mlmg_lang.parsing.structure import SUB, is_sub
@@ -22,7 +20,7 @@ from mlmg_lang.parsing.tokenize import tokenize
 from mlmg_lang.parsing.tokens import NAMES
 from mlmg_lang.planning.names import Kind, Names
 from mlmg_lang.source import Source, Span
-from mlmg_lang.spelling import folded, normal
+from mlmg_lang.spelling import normal
 
 
 class Sort(StrEnum):
@@ -85,24 +83,6 @@ class Place:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Statement:
-    """A statement that holds no others.
-
-    Attributes
-    ----------
-    item : with addresses. further : what makes offsets of them. text : of the file that it stands in.
-    """
-
-    item: syntax.Item
-    further: int
-    source: Source
-
-    def at(self, span: Span) -> Span:
-        """Return where something of it is."""
-        return span.shifted(self.further)
-
-
 def place_of(source: Source, span: Span) -> Place:
     """Return where a span is, counted in its own file."""
     file, base = source.file(span.start)
@@ -126,7 +106,7 @@ def occurrences_of(analysis: Analysis, symbol: Symbol) -> Iterator[Occurrence]:
     read, last = reader_of(analysis), None
     # A parameter is named in its definition, and where that is used.
     hint = Symbol(Sort.DEFINITION, symbol.owner) if symbol.sort is Sort.PARAMETER else symbol
-    for statement in _statements_naming(analysis.made, hint):
+    for statement in statements_naming(analysis.made, hint.name, defined=hint.sort in RENAMED):
         if statement.item is not last:
             last = statement.item
             yield from (one for one in read(statement) if one.symbol == symbol)
@@ -139,68 +119,7 @@ def reader_of(analysis: Analysis) -> Callable[[Statement], Iterator[Occurrence]]
     return lambda statement: _Reader(lets, names, known, statement).item(statement.item)
 
 
-# --- statements ------------------------------------------------------------------------------------------
-
-
-def statements_at(made: InPieces, offset: int) -> list[Statement]:
-    """Return the statements that hold no others and that an offset is in or at an end of, in the order of the text."""
-    items, further = _items_at(made, offset)
-    return [Statement(item, further, made.source) for item in _touching(items, offset - further)]
-
-
-def _items_at(made: InPieces, offset: int) -> tuple[Sequence[syntax.Item], int]:
-    """Return the items among which those at an offset are, and what makes offsets of their addresses."""
-    starts = made.places.logical_line_starts
-    if offset <= starts[-1]:
-        number = made.places.line_at(offset)
-        line = made.lines[number]
-        return line.items, starts[number] - line.address
-    further = starts[-1] + 1 - made.places.files.start
-    scripts = (*made.gathered.used.earlier, *made.gathered.used.scripts)
-    address = offset - further
-    return next((one.items for one in scripts if one.span.start <= address <= one.span.end), ()), further
-
-
-def _touching(items: Sequence[syntax.Item], address: int) -> Iterator[syntax.Item]:
-    """Yield the statements at an address, those in blocks too."""
-    after = bisect_right(items, address, key=lambda item: item.span.start)
-    for item in items[max(after - 2, 0) : after]:
-        if address <= item.span.end:
-            if isinstance(item, syntax.Repeat):
-                yield from _touching(item.body, address)
-            elif isinstance(item, syntax.Choose):
-                for branch in item.branches:
-                    yield from _touching(branch.body, address)
-            else:
-                yield item
-
-
-def _statements_naming(made: InPieces, symbol: Symbol) -> Iterator[Statement]:
-    """Yield the statements that may name something, some of them several times in a row."""
-    base = 0
-    for file in (made.source, *made.source.used):
-        for hit in _hits(file.text, symbol):
-            yield from statements_at(made, base + hit)
-        base += len(file.text) + 1
-
-
-def _hits(text: str, symbol: Symbol) -> Iterable[int]:
-    """Return where a name may stand in a text; everywhere if its letters cannot be found so."""
-    own = symbol.sort in RENAMED
-    seen = normalize("NFC", text if own else text.casefold())
-    if len(seen) != len(text):
-        return range(len(text) + 1)
-    name = symbol.name if own else folded(symbol.name)
-    letters = [f"\\\\{re.escape(sign)}" if sign in '"\\' else re.escape(sign) for sign in name]
-    spelled = ("" if own else "[-_]*").join(letters)
-    found = (one.start() for one in re.finditer(rf"{spelled}(?!\w|-\w)", seen))
-    # What stands before is looked at afterwards: an expression that begins with letters is found far sooner.
-    return (at for at in found if not _in_name(seen[max(at - 2, 0) : at]))
-
-
-def _in_name(before: str) -> bool:
-    """Return whether what stands behind two characters goes on with a name."""
-    return before.endswith("_") or before.rstrip("-")[-1:].isalnum()
+# --- what names stand for --------------------------------------------------------------------------------
 
 
 def _naming(node: syntax.Node) -> Iterator[syntax.Node]:
@@ -221,9 +140,6 @@ def _naming(node: syntax.Node) -> Iterator[syntax.Node]:
                 waiting.extend(reversed(operands))
             case syntax.Group(inner) | syntax.Not(inner):
                 waiting.append(inner)
-
-
-# --- what names stand for --------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True, slots=True)

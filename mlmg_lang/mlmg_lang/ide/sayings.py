@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from mlmg_lang.analysis import Analysis
 from mlmg_lang.definitions.expand import Expander
-from mlmg_lang.ide.occurrences import Statement
+from mlmg_lang.ide.statements import Statement
 from mlmg_lang.parsing import syntax
 from mlmg_lang.planning import typed
 from mlmg_lang.planning.flow import State
