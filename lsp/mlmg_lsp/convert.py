@@ -19,7 +19,7 @@ from mlmg_lsp.open_text import Snapshot
 from mlmg_lsp.positions import EditorPosition, Encoding, offset_from_position, range_from_span, units_in
 
 if TYPE_CHECKING:
-    from mlmg_lang.ide.hover import Part
+    from mlmg_lang.ide.markdown import Part
 
 _SEVERITIES: Final = {
     Severity.ERROR: types.DiagnosticSeverity.Error,

@@ -18,7 +18,7 @@ from mlmg_runtime.library import Library
 
 @dataclass(frozen=True)
 class LibraryFacts:
-    """Answers `ide.hover.Anatomy` and `ide.definition.Origins`.
+    """Answers `ide.hover_name.Anatomy` and `ide.definition.Origins`.
 
     Attributes
     ----------

@@ -7,7 +7,8 @@ from typing import Any
 import pytest
 
 from mlmg_lang.front_end import analyse, analyse_again
-from mlmg_lang.ide.hover import Hover, code, hover, hover_mistakes
+from mlmg_lang.ide.hover import Hover, hover, hover_mistakes
+from mlmg_lang.ide.markdown import code
 from mlmg_lang.ide.words import UNIT_SAYS, WORDS
 from mlmg_lang.parsing.amounts import UNITS
 from mlmg_lang.source import Source, Span
