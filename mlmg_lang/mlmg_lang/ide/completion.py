@@ -16,7 +16,6 @@ from mlmg_lang.definitions.gather import Definitions, Kind
 from mlmg_lang.ide.arguments import argument_at, names_of_definition, parameter_kinds
 from mlmg_lang.ide.combining import Partner, Partners
 from mlmg_lang.ide.cursor import Cursor
-from mlmg_lang.ide.fuzzy import matching
 from mlmg_lang.ide.offers import Completion, Offers, What, best_fit
 from mlmg_lang.ide.reach import Below, Reach, expression, left_of_with
 from mlmg_lang.ide.words import UNIT_SAYS, WORDS
@@ -29,14 +28,12 @@ from mlmg_lang.parsing.tokens import NAMES, Token
 from mlmg_lang.planning.flow import State
 from mlmg_lang.planning.names import Names
 from mlmg_lang.source import Span
-from mlmg_lang.spelling import counted, normal
+from mlmg_lang.spelling import counted, joined, normal
 
 Place: TypeAlias = tuple[str, str | None]
 """A graph that a name is on, and the one beside it that what stands left of `and` is on, if any."""
 _UNITS: Final = ("sec", "ms", "min", "frames", "cycles")
 _STATEMENT_WORDS: Final = frozenset({"WAIT", "END", "REPEAT", "CHOOSE", "LET", "USE"})
-_MOST_TRIED: Final = 50
-"""So many definitions are tried in a place, at up to a third of a millisecond each; others are offered untried."""
 _TOP_LEVEL: Final = frozenset({"LET", "USE"})
 _BEFORE_OWN: Final = 10
 """So many names of the library stand before the script's own where nothing has been written yet."""
@@ -83,7 +80,8 @@ class Surroundings:
 def complete(cursor: Cursor | None, offset: int, around: Surroundings) -> Offered:
     """Return what could be written at a cursor, the best first; nothing without one.
 
-    But for definitions, nothing is left out for what has been written of the word: that is up to `matches`.
+    Nothing is left out for what has been written of the word: that is up to `matches`; nor for what stands behind it,
+    or for what a definition says: that is up to `trying`.
 
     Parameters
     ----------
@@ -195,16 +193,17 @@ class _Completer:
                 yield self._parameters_of(before, Kind.DURATION)
             if not argument.takes_motion:
                 return
-        graph = self.reach.qualifier(own)
-        if graph is not None:
+        qualifier = self.reach.qualifier(own)
+        if qualifier is not None:
             is_right_behind = own[-1].type in NAMES
             joined = own[:-1] if is_right_behind else own
-            graphs = self.around.names.all_levels() if is_right_behind else (graph,)
-            partners = self.reach.partners(joined, graphs, (graph,), whole=not is_right_behind)
+            graphs = self.around.names.all_levels() if is_right_behind else qualifier
+            partners = self.reach.partners(joined, graphs, qualifier, whole=not is_right_behind)
             if partners is not None:
                 yield from chain(*self._beside(partners))
-            elif above := self.reach.above(graph, own):
-                yield self._on(graph, above)
+            else:
+                meant = [(graph, above) for graph in qualifier if (above := self.reach.above(graph, own))]
+                yield from self._unqualified(meant, set())
             return
         if own and own[-1].type in NAMES | {"RIGHT"}:
             return  # A word comes next.
@@ -215,21 +214,19 @@ class _Completer:
         graphs = self.around.names.all_levels() if rooms is None else tuple(graph for graph, _ in rooms)
         partners = self.reach.partners(own, graphs, graphs, whole=False)
         if partners is not None:
-            yield from self._behind_and(before, partners, rooms)
+            yield from self._behind_and(before, partners)
         elif rooms is None:
             yield from self._anywhere(before)
         else:
             yield from self._below(before, rooms)
 
-    def _behind_and(
-        self, before: Sequence[Token], partners: Partners, rooms: Sequence[Below] | None
-    ) -> Iterator[Iterable[Completion]]:
+    def _behind_and(self, before: Sequence[Token], partners: Partners) -> Iterator[Iterable[Completion]]:
         """Yield what may stand behind an `and`: what has motions in common first, then what is shared out."""
         common, shared = self._beside(partners)
         yield from self._with_own(common, before)
         graphs = dict.fromkeys(partner.graph for partner, motions in partners.left.items() if motions)
         yield self._graphs([graph for graph in graphs if graph != self.around.names.root])
-        yield () if rooms is None else (_sub(rooms),)
+        yield self._sub(before)
         yield from shared
 
     def _beside(self, partners: Partners) -> tuple[list[list[Completion]], list[list[Completion]]]:
@@ -251,7 +248,7 @@ class _Completer:
         """Yield what may stand behind a `with`."""
         yield from self._with_own(self._unqualified(rooms, set()), before)
         yield self._graphs([graph for graph, _ in rooms])
-        yield (_sub(rooms),)
+        yield self._sub(before)
 
     def _anywhere(self, before: Sequence[Token]) -> Iterator[Iterable[Completion]]:
         """Yield what a command may begin with: what the whole body does first, then what parts may do as it is."""
@@ -295,6 +292,12 @@ class _Completer:
     def _graphs(self, graphs: Iterable[str]) -> Iterator[Completion]:
         return (_graph(graph, _part_says(graph, self.around.names)) for graph in graphs)
 
+    def _sub(self, before: Sequence[Token]) -> Iterator[Completion]:
+        left = left_of_with(expression(before))
+        graphs = () if left is None else self.reach.sub(left)
+        if graphs:
+            yield _graph(SUB, f"the part below: {joined(graphs, 'or')}")
+
     def _parameters_of(self, before: Sequence[Token], kind: Kind) -> Iterator[Completion]:
         """Yield the parameters of the definition that is being written, of a kind or of one that is not known."""
         for name, known in parameter_kinds(before, self.around.definitions).items():
@@ -303,17 +306,11 @@ class _Completer:
                 yield Completion(script_name(name), name, What.PARAMETER, owner=owner)
 
     def _definitions(self, before: Sequence[Token]) -> Iterator[Completion]:
-        definitions, own = self.around.definitions, expression(before)
-        # Others would be left out later; to try them takes time.
-        meant = frozenset(matching(self.cursor.word, definitions.lets, str))
-        n_tried = 0
+        definitions = self.around.definitions
         for name, let in definitions.lets.items():
             signature = definitions.signatures.get(name)
-            if name not in meant or name in self.own or (before and signature is not None and signature.lasts):
+            if name in self.own or (before and signature is not None and signature.lasts):
                 continue  # What says how long is a whole statement.
-            n_tried += let.parameters is None
-            if n_tried <= _MOST_TRIED and not self.reach.takes(own, name):
-                continue
             says = "defined here" if let.parameters is None else f"takes {len(let.parameters)}"
             yield Completion(script_name(name), name, What.DEFINITION, says=says)
 
@@ -336,10 +333,6 @@ def _within(one: Completion, motions: Collection[str], partner: Partner) -> Comp
 
 def _graph(graph: str, says: str) -> Completion:
     return Completion(script_name(graph), graph, What.GRAPH, says=says)
-
-
-def _sub(rooms: Sequence[Below]) -> Completion:
-    return _graph(SUB, ": ".join(("the part below", *[graph for graph, _ in rooms[:1]])))
 
 
 def _part_says(graph: str, names: Names) -> str:

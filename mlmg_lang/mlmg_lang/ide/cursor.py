@@ -35,6 +35,7 @@ class Cursor:
     before : the tokens of the statement before that word.
     last : those of the statement before this one, if only a line end stands between the two: a line may go on with it.
     nested : whether the statement stands in braces.
+    behind : the tokens of the statement behind that word, on further lines too.
     """
 
     word: str
@@ -43,6 +44,7 @@ class Cursor:
     before: tuple[Token, ...]
     last: tuple[Token, ...]
     nested: bool
+    behind: tuple[Token, ...]
 
 
 def cursor_at(tokens: Sequence[Token], offset: int) -> Cursor | None:
@@ -66,7 +68,8 @@ def cursor_at(tokens: Sequence[Token], offset: int) -> Cursor | None:
         word = "".join(token.text for token in before[-n_words:])[: offset - span.start].lstrip('"')
         before = before[:-n_words]
     line, last, nested = _statement(before, offset)
-    return Cursor(word, span, quoted, line, last, nested)
+    behind = _behind(before, [token for token in tokens if token.span.start >= span.end], span.end)
+    return Cursor(word, span, quoted, line, last, nested, behind)
 
 
 def in_a_row(tokens: Sequence[Token], cursor: Cursor) -> Iterator[Cursor]:
@@ -121,6 +124,21 @@ def _ends_in_hyphen(tokens: Sequence[Token]) -> bool:
     if len(tokens) < 2 or tokens[-1].text != "-":
         return False
     return tokens[-2].type == "NAME" and tokens[-2].span.end == tokens[-1].span.start
+
+
+def _behind(before: Sequence[Token], after: Sequence[Token], offset: int) -> tuple[Token, ...]:
+    """Return the tokens of the statement of a word that stand behind it; none if the first would become part of it."""
+    if not after or (_is_word(after[0]) and after[0].span.start == offset):
+        return ()
+    here = Token("NAME", "", Span(offset, offset))
+    waiting = list(lay_out([*before, here, *after]).items)
+    while waiting:
+        item = waiting.pop()
+        if isinstance(item, Block):
+            waiting += [one for branch in item.branches for one in branch]
+        elif here in item.tokens:
+            return item.tokens[item.tokens.index(here) + 1 :]
+    return ()
 
 
 def _statement(before: Sequence[Token], offset: int) -> tuple[tuple[Token, ...], tuple[Token, ...], bool]:

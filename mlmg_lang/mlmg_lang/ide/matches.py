@@ -12,6 +12,7 @@ from mlmg_lang.ide.completion import Offered, Surroundings, complete
 from mlmg_lang.ide.cursor import Cursor, cursor_at, in_a_row
 from mlmg_lang.ide.fuzzy import matching
 from mlmg_lang.ide.offers import Completion, What
+from mlmg_lang.ide.trying import trial_at, tried
 from mlmg_lang.parsing.tokens import Token
 from mlmg_lang.source import Source
 
@@ -48,20 +49,26 @@ def matches(source: Source, tokens: Sequence[Token], offset: int, around: Surrou
     cursor = cursor_at(tokens, offset)
     offered = complete(cursor, offset, around)
     word = source.text[offered.span.start : offset].lstrip('"')
-    found = matching(word, offered.found, attrgetter("name"), most)
-    rows = () if cursor is None else tuple(in_a_row(tokens, cursor))
+    if cursor is None:
+        return Matches(offered, (), apart=False, is_final=True)
+    trial = trial_at(cursor, around)
+    found = matching(word, offered.found, attrgetter("name"), None if trial.tries_library else most)
+    is_all = trial.tries_library or len(found) <= most
+    rows = tuple(in_a_row(tokens, cursor))
     if rows and not any(one.name.startswith(word) for one in found):
-        several = (_apart(source, row, offset, around) for row in rows)
+        several = (_apart(source, row, offset, around, most) for row in rows)
         whole = next((one for one in several if one.found), None)
         if whole is not None:
             return whole
-    return Matches(offered, tuple(found), apart=False, is_final=len(found) <= most and not rows)
+    sound = tried(trial, found, offered.found, most)
+    is_final = is_all and sound.is_all and len(sound.found) <= most and not rows
+    return Matches(offered, sound.found, apart=False, is_final=is_final)
 
 
-def _apart(source: Source, row: Cursor, offset: int, around: Surroundings) -> Matches:
+def _apart(source: Source, row: Cursor, offset: int, around: Surroundings, most: int) -> Matches:
     """Return the names that begin with the words of a row."""
     offered = complete(row, offset, around)
     words = source.text[row.span.start : offset].split()
     begins = re.compile(_JOINS.join(map(re.escape, words)), re.IGNORECASE)
-    found = tuple([one for one in offered.found if one.what in _NAMES and begins.match(one.name)])
-    return Matches(offered, found, apart=True, is_final=False)
+    found = [one for one in offered.found if one.what in _NAMES and begins.match(one.name)]
+    return Matches(offered, tried(trial_at(row, around), found, offered.found, most).found, apart=True, is_final=False)

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
+from enum import IntEnum
 from typing import Final, TypeAlias
 
 from mlmg_lang.definitions.expand import Expander
@@ -18,7 +19,6 @@ from mlmg_lang.ide.combining import Partners, is_inner, left_of_and, partners
 from mlmg_lang.ide.outwards import outwards
 from mlmg_lang.parsing import syntax
 from mlmg_lang.parsing.build_syntax import name_from_token
-from mlmg_lang.parsing.lexical import script_name
 from mlmg_lang.parsing.line_parser import read
 from mlmg_lang.parsing.structure import SUB, is_sub, motion_mistakes
 from mlmg_lang.parsing.tokens import NAMES, Token
@@ -28,12 +28,20 @@ from mlmg_lang.planning.names import Names
 from mlmg_lang.planning.nothing import Room
 from mlmg_lang.planning.select import select
 from mlmg_lang.planning.typed import Layering
-from mlmg_lang.source import Source, Span
+from mlmg_lang.source import Source
 
 Below: TypeAlias = tuple[str, Collection[str]]
 """A graph that could be named, and what may be played above it then."""
 _ENDS_PART: Final = frozenset({"LEFT", "COMMA", "EQUALS"})
 """What begins a group, or an argument of a definition's use."""
+
+
+class Verdict(IntEnum):
+    """How wrong a command is. `SOUND`: not at all, as far as that is known; `FORBIDDEN`: by rule 1 where it stands."""
+
+    SOUND = 0
+    FORBIDDEN = 1
+    WRONG = 2
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,15 +52,15 @@ class Reach:
     definitions: Definitions
     state: State
 
-    def qualifier(self, own: Sequence[Token]) -> str | None:
-        """Return the graph whose name stands before the cursor, or before the innermost group around it."""
+    def qualifier(self, own: Sequence[Token]) -> tuple[str, ...] | None:
+        """Return the graphs that a name before the cursor, or before the innermost group around it, can mean."""
         for at in outwards(own):
             kind = own[at].type
             if kind == "LEFT" or at == len(own) - 1:
                 named = at - 1 if kind == "LEFT" and at else at
-                graph = self._graph_of(own[named], own[:named])
-                if graph is not None:
-                    return graph
+                graphs = self._graphs_of(own[named], own[:named])
+                if graphs:
+                    return graphs
             elif kind == "WITH":
                 return None
         return None
@@ -109,15 +117,12 @@ class Reach:
         above = ((graph, self.playing(graph)) for graph in names.all_levels())
         return {graph: motions for graph, motions in above if graph == names.root or motions & names.motion_set(graph)}
 
-    def takes(self, own: Sequence[Token], definition: str) -> bool:
-        """Return whether an expression could go on with a definition; what it gets for its parameters is not known."""
-        if self.definitions.lets[definition].parameters is not None:
-            return True
-        text = script_name(definition)
-        name = Token("STRING" if text.startswith('"') else "NAME", text, Span(0, 0))
-        n_open = sum((token.type == "LEFT") - (token.type == "RIGHT") for token in own)
-        ways = self._ways((*own, name, *[Token("RIGHT", ")", Span(0, 0))] * n_open))
-        return ways is None or any(self._may_be_driven(way) for way in ways)
+    def judged(self, command: Sequence[Token]) -> Verdict:
+        """Return how wrong the tokens of a command are where it stands."""
+        ways = self._ways(command)
+        if ways is None or any(self._may_be_driven(way) for way in ways):
+            return Verdict.SOUND
+        return Verdict.FORBIDDEN if ways else Verdict.WRONG
 
     def _may_be_driven(self, way: Layering) -> bool:
         """Return whether rule 1 allows each layer below those above it, or below what may be playing."""
@@ -129,13 +134,20 @@ class Reach:
                 return False
         return True
 
-    def _graph_of(self, token: Token, before: Sequence[Token]) -> str | None:
+    def sub(self, motion: Sequence[Token]) -> tuple[str, ...]:
+        """Return the graphs that `Sub` can mean behind a `with` after a motion: of those that it leaves."""
+        rooms, way = tuple(graph for graph, _ in self.rooms_below(motion)), self._way(motion)
+        below = rooms if way is None else self.names.children(way.layers[-1].graph)
+        return tuple(graph for graph in rooms if graph in below)
+
+    def _graphs_of(self, token: Token, before: Sequence[Token]) -> tuple[str, ...]:
         if token.type not in NAMES:
-            return None
-        if token.text != SUB:
-            return self.names.graph(name_from_token(token).text)
-        left = left_of_with(before)
-        return None if left is None else next((graph for graph, _ in self.rooms_below(left)), None)
+            return ()
+        if token.text == SUB:
+            left = left_of_with(before)
+            return () if left is None else self.sub(left)
+        graph = self.names.graph(name_from_token(token).text)
+        return () if graph is None else (graph,)
 
     def _way(self, motion: Sequence[Token]) -> Layering | None:
         """Return what a finished part of a command does; None if that is not known."""
@@ -165,7 +177,9 @@ class Reach:
         """Return whether part of an expression in which definitions have been put in is no name without a meaning."""
         if isinstance(node, syntax.Reference):
             return bool(self.names.places(node.name.text))
-        return not isinstance(node, syntax.Call) or is_sub(node.name) or self.names.graph(node.name.text) is not None
+        if not isinstance(node, syntax.Call) or is_sub(node.name) or self.names.graph(node.name.text) is not None:
+            return True
+        return bool(self.names.places(node.name.text))
 
     def _rooms(self, way: Layering) -> Iterator[Below]:
         """Yield the graphs that a `with` leaves, and what may be played above each: what rule 1 lets it leave."""

@@ -12,6 +12,7 @@ from mlmg_lang.ide.completion import Surroundings, complete
 from mlmg_lang.ide.cursor import cursor_at
 from mlmg_lang.ide.occurrences import Place
 from mlmg_lang.ide.offers import Completion, Offers
+from mlmg_lang.ide.trying import trial_at, tried
 from mlmg_lang.parsing.tokenize import tokenize
 from mlmg_lang.planning import flow
 from mlmg_lang.planning.names import Names
@@ -44,7 +45,8 @@ def offers(reference: Catalog) -> Callable[..., list[Completion]]:
         definitions = analyse(Source(f"{defined}\n"), library).definitions
         around = Surroundings(names, definitions, flow.begin(names, playing), Offers(names, InOrder(names)))
         cursor = cursor_at(tokenize(Source(before + after)), len(before))
-        return list(complete(cursor, len(before), around).found)
+        found = complete(cursor, len(before), around).found
+        return [] if cursor is None else list(tried(trial_at(cursor, around), found, found, len(found)).found)
 
     return ask
 

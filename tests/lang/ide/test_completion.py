@@ -55,6 +55,19 @@ def test_sub_is_the_part_below(texts: Texts) -> None:
     assert texts("WALK with Sub ¦") == UPPER
 
 
+def test_sub_is_any_of_the_parts_right_below(texts: Texts, hands: Catalog) -> None:
+    for text in ("WALK with Sub ¦", "WALK with Sub (¦)", "WALK with Sub (¦", "WALK with Sub (POINT or ¦)"):
+        found = set(texts(text, hands)) - {"not"}
+        assert {"WAVE", "POINT", "Point_01"} <= found
+        for one in found:
+            whole = text.replace("¦", one) + ")" * (text.count("(") - text.count(")"))
+            told = analyse(Source(whole), hands, "Walk_01").diagnostics
+            assert not [m.message for m in told if m.severity == "error"], whole
+    assert "WAVE" not in texts("WALK with Sub (POINT and ¦)", hands)
+    assert "Sub" in texts("WALK with ¦", hands)
+    assert "Sub" not in texts("WALK with Left-Hand WAVE with ¦", hands)
+
+
 def test_a_part_that_rule_1_forbids_now_is_not_offered(texts: Texts) -> None:
     assert "SWING_HAND" not in texts("¦", playing="Idle_02")
     assert "Upper-Body" not in texts("¦", playing="Idle_02")
@@ -233,12 +246,6 @@ def test_only_definitions_are_offered_that_fit(text: str, offered: set[str], tex
         assert not [m.message for m in told if m.severity == "error"], whole
 
 
-def test_however_many_definitions_there_are_those_that_are_meant_are_tried(texts: Texts) -> None:
-    defined = "\n".join(f"let D_{number} = WALK" for number in range(60))
-    assert "D_59" in texts("D_59¦", defined=defined)
-    assert "D_59" not in texts("WALK with D_59¦", defined=defined)
-
-
 def test_a_definition_that_rule_1_forbids_now_is_not_offered(texts: Texts) -> None:
     assert "NOD" not in texts("¦", playing="Idle_02", defined="let NOD = Upper-Body TALK")
     assert "NOD" in texts("¦", playing="Idle_01", defined="let NOD = Upper-Body TALK")
@@ -247,6 +254,61 @@ def test_a_definition_that_rule_1_forbids_now_is_not_offered(texts: Texts) -> No
 def test_where_no_graph_is_left_nothing_is_offered(texts: Texts) -> None:
     assert texts("WALK with Upper-Body TALK with ¦", defined="let NOD = Upper-Body TALK") == []
     assert "not" in texts("WALK with ¦")
+
+
+BEHIND = [
+    *("¦ with Upper-Body TALK", "¦ with Left-Hand WAVE for 2 sec", "¦ with WAVE", "¦ and SWING_HAND", "¦ and WAVE"),
+    *("¦ or WAVE", "WALK with ¦ with WAVE", "WALK with (¦ and TALK)", "WALK with Upper-Body ¦ with Left-Hand WAVE"),
+    *("WALK with Upper-Body (¦ and SWING_HAND) with WAVE", "Upper-Body ¦ with Left-Hand Wave_01", "¦ for 2 sec"),
+    *("¦\nwith Upper-Body TALK\nwith Left-Hand WAVE\nWALK", "¦ # so\n\n  with Left-Hand WAVE\nonce", "(¦\n) with WAVE"),
+    *("HAND(¦)", "HAND(¦) for 2 sec", "TWO(WALK, ¦)", "TWO(x = ¦, y = TALK)", "TWO(¦, Left-Hand WAVE)", "HAND((¦))"),
+    *("repeat 2 { ¦ with Upper-Body SWING_HAND }", "choose { | IDLE | ¦ with Left-Hand WAVE }", "HAND(¦"),
+]
+TAKEN = """let HAND(x) = x with Left-Hand x
+let TWO(x, y) = x with y
+let NOD = Upper-Body TALK
+let WHOLE = Idle_02
+let LONG = WALK for 3 sec
+let BOTH = WALK with Upper-Body TALK
+"""
+
+
+@pytest.mark.parametrize("text", BEHIND)
+@pytest.mark.parametrize("playing", ["Walk_01", "Idle_02"])
+def test_what_stands_behind_the_cursor_counts(text: str, playing: str, offers: Offers, left_hand: Catalog) -> None:
+    def wrong(name: str) -> list[str]:
+        written = text.replace("¦", name) + ")" * (text.count("(") - text.count(")"))
+        told = analyse(Source(f"{TAKEN}{playing}\n{written}"), left_hand, playing).diagnostics
+        return [one.message for one in told if one.severity == "error"]
+
+    kinds = (What.MOTION, What.TAG, What.DEFINITION)
+    offered = {one.text for one in offers(text, left_hand, playing, TAKEN) if one.what in kinds} - {"HAND", "TWO"}
+    alone = text.partition("¦")[0] + "¦"
+    known = {one.text for one in offers(alone, left_hand, playing, TAKEN) if one.what in kinds} - {"HAND", "TWO"}
+    right = {name for name in known if not wrong(name)}
+    assert offered == (right or known)
+    assert offered
+
+
+@pytest.mark.parametrize(
+    ("text", "alone"),
+    [
+        ("¦ with Left-Hand WALK", "¦"),
+        ("¦ with Left-Hand NOBODY", "¦"),
+        ("¦ with with", "¦"),
+        ("¦ with WALK with Left-Hand WAVE", "¦"),
+        ("WALK with (¦\nIDLE for 2 sec", "WALK with (¦"),
+        ("¦\nUpper-Body TALK", "¦"),
+    ],
+)
+def test_where_all_would_be_as_wrong_nothing_is_left_out(
+    text: str, alone: str, texts: Texts, left_hand: Catalog
+) -> None:
+    assert texts(text, left_hand) == texts(alone, left_hand)
+
+
+def test_a_graph_is_offered_before_what_is_on_it(texts: Texts, left_hand: Catalog) -> None:
+    assert texts("WALK with ¦ WAVE", left_hand) == ["Left-Hand", "not"]
 
 
 def test_below_a_parameter_all_parts_are_offered(texts: Texts) -> None:

@@ -74,3 +74,9 @@ def test_of_names_that_are_as_like_the_word_the_script_s_own_come_first(found):
     assert [name for _, name in found("w¦", defined)[1]][:3] == ["w", "waving", '"wave hand"']
     assert [name for _, name in found("wave¦", defined)[1]] == ["wave", '"wave hand"']
     assert [name for _, name in found("UP¦", defined)[1]] == ["up", "Upper-Body", "GO_UP"]
+
+
+def test_however_many_definitions_there_are_those_that_are_meant_are_tried(found):
+    defined = "\n".join(f'let D_{number} = "wave hand"' for number in range(60)) + "\nlet D_ARM = Upper-Body wave"
+    assert "D_59" in [name for _, name in found("D_59¦", defined)[1]]
+    assert [name for _, name in found("wave with D_59¦", defined)[1]] == []
