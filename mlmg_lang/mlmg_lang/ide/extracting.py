@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
 from itertools import count, takewhile
 from typing import Final
 
 from mlmg_lang.analysis import Analysis
+from mlmg_lang.ide.sayings import understood
+from mlmg_lang.ide.substitution import substituted
 from mlmg_lang.ide.touching import pieces_touching
 from mlmg_lang.parsing import syntax
 from mlmg_lang.parsing.structure import group_of, is_sub
@@ -34,18 +36,27 @@ def extraction(analysis: Analysis, within: Span) -> Extraction | None:
     """Return what defines the command or part of one that is selected; None if nothing is, or it cannot be defined.
 
     The definition stands before the statement that this is in, with its comments, at the top level; but below the
-    comment at the head of the script.
+    comment at the head of the script. What a definition says can be parted too, but for what has its parameters in it.
     """
     selected = _without_spaces(analysis, within)
     if selected.start == selected.end:
         return None
     for piece, further in pieces_touching(analysis, Span(selected.start, selected.start)):  # a part is in one
-        for command in syntax.commands(piece.items):
+        for command, own in _commands(piece.items):
             for span, part in _parts(command, analysis):
                 if _without_spaces(analysis, span.shifted(further)) == selected:
                     first = next(token.span.start for token in piece.tokens if token.type not in ("COMMENT", "NEWLINE"))
-                    return _extraction(analysis, part, selected, first + further)
+                    is_possible = _can_be_defined(analysis, command, part, own)
+                    return _extraction(analysis, selected, first + further) if is_possible else None
     return None
+
+
+def _commands(items: Sequence[syntax.Item]) -> Iterator[tuple[syntax.Command, frozenset[str] | None]]:
+    """Yield the commands of some items; of a definition, with its parameters, else with None."""
+    yield from ((command, None) for command in syntax.commands(items))
+    for item in items:
+        if isinstance(item, syntax.Let):
+            yield item.command, frozenset(normal(one.name.text) for one in item.parameters or ())
 
 
 def _without_spaces(analysis: Analysis, within: Span) -> Span:
@@ -54,13 +65,26 @@ def _without_spaces(analysis: Analysis, within: Span) -> Span:
     return Span(start, start + len(text.strip()))
 
 
-def _extraction(
-    analysis: Analysis, part: syntax.Command | syntax.Motion, at: Span, statement: int
-) -> Extraction | None:
-    is_whole = isinstance(part, syntax.Command)
-    has_sub = any(isinstance(node, syntax.Name) and is_sub(node) for node in syntax.walk(part))
-    if (has_sub and not is_whole) or _lasts(part, analysis):
-        return None  # `Sub` depends on what stands before it, and what lasts is a whole statement.
+def _can_be_defined(
+    analysis: Analysis, command: syntax.Command, part: syntax.Command | syntax.Motion, own: frozenset[str] | None
+) -> bool:
+    """Return whether a part of a command can have a name; `own`: the parameters of the definition that it is in."""
+    if isinstance(part, syntax.Command):
+        return own is None and not _lasts(part, analysis)
+    names = [node for node in syntax.walk(part) if isinstance(node, syntax.Name)]
+    if _lasts(part, analysis) or (own and any(normal(name.text) in own for name in names)):
+        return False
+    return not any(map(is_sub, names)) or _means_the_same_apart(analysis, command, part)
+
+
+def _means_the_same_apart(analysis: Analysis, command: syntax.Command, part: syntax.Motion) -> bool:
+    """Return whether `Sub` in a part means the same if that is put in where it is named: in parentheses."""
+    way = understood(analysis, command).way
+    apart = substituted(command.motion, part, syntax.Group(part, part.span))
+    return way is not None and way == understood(analysis, replace(command, motion=apart)).way
+
+
+def _extraction(analysis: Analysis, at: Span, statement: int) -> Extraction:
     text = analysis.source.text
     name = _fresh(analysis)
     before = _before(analysis.source, statement)

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import replace
+from collections.abc import Iterable, Iterator, Mapping
 from typing import TypeAlias
 
 from mlmg_lang.analysis import Analysis
 from mlmg_lang.diagnostics import Diagnostic
 from mlmg_lang.ide.sayings import understood
+from mlmg_lang.ide.substitution import substituted
 from mlmg_lang.moving import by, moved
 from mlmg_lang.parsing import syntax
 from mlmg_lang.planning import typed
@@ -41,7 +41,11 @@ def _in_command(analysis: Analysis, command: syntax.Command, use: _Use) -> Mappi
         return {layer.graph: layer.motions for layer in says.way.layers}
     # What comes of this use is known by where it is, though another use may put in the same text.
     apart = 1 + max(node.span.end for node in syntax.walk(says.expanded))
-    motion = _elsewhere(says.expanded.motion, use, lambda group: moved(group, by(apart)))
+    nodes = syntax.walk(says.expanded)
+    own = next((node for node in nodes if isinstance(node, syntax.Group) and node.span == use.span), None)
+    if own is None:  # It is given to a definition that does not use it.
+        return {}
+    motion = substituted(says.expanded.motion, own, moved(own, by(apart)))
     ways = select(motion, names, analysis.made.addressed, explains=False)
     assert not isinstance(ways, Diagnostic), "it is understood where it stands"
     found: dict[str, set[str]] = {}
@@ -49,27 +53,6 @@ def _in_command(analysis: Analysis, command: syntax.Command, use: _Use) -> Mappi
         # An `and` in an `and` is one with it, so that there may be several.
         found.setdefault(choice.graph, set(choice.motions)).intersection_update(choice.motions)
     return {graph: names.in_order(graph, motions) for graph, motions in found.items()}
-
-
-def _elsewhere(motion: syntax.Motion, use: _Use, put: Callable[[syntax.Group], syntax.Group]) -> syntax.Motion:
-    """Return an expression with what a use has become, which stands in parentheses, put elsewhere."""
-    match motion:
-        case syntax.Group() if motion.span == use.span:
-            return put(motion)
-        case syntax.Group(inner):
-            return replace(motion, motion=_elsewhere(inner, use, put))
-        case syntax.Not(operand):
-            return replace(motion, operand=_elsewhere(operand, use, put))
-        case syntax.And(operands) | syntax.Or(operands) | syntax.With(operands):
-            return replace(motion, operands=tuple(_elsewhere(one, use, put) for one in operands))
-        case syntax.Call(_, arguments):
-            return replace(motion, arguments=tuple(_argument(one, use, put) for one in arguments))
-    return motion
-
-
-def _argument(argument: syntax.Argument, use: _Use, put: Callable[[syntax.Group], syntax.Group]) -> syntax.Argument:
-    value = argument.value
-    return argument if isinstance(value, syntax.Quantity) else replace(argument, value=_elsewhere(value, use, put))
 
 
 def _from(choice: typed.Choice, address: int) -> Iterator[typed.Choice]:

@@ -156,6 +156,7 @@ def test_a_definition_is_told_with_its_text_and_its_type(found):
         ),
         ("let A = SWING_HAND and (Walk_01 or Talk_01)\nUpper-Body (SWING_HAND and ¦A)", ["Upper-Body: Walk_01"]),
         ("let A = TALK\nlet G(x) = x with ¦A", []),
+        ("let A = TALK\nlet G(x) = WALK\nG(¦A)", []),
         ("let A = TALK\nWALK with Upper-Body ¦A with Upper-Body A", []),
     ],
 )
