@@ -294,9 +294,13 @@ class _Completer:
 
     def _sub(self, before: Sequence[Token]) -> Iterator[Completion]:
         left = left_of_with(expression(before))
-        graphs = () if left is None else self.reach.sub(left)
+        if left is None:
+            return
+        graphs, names = self.reach.sub(left), self.around.names
         if graphs:
             yield _graph(SUB, f"the part below: {joined(graphs, 'or')}")
+        elif not names.motions(names.root):  # Without a library nobody knows of graphs.
+            yield _graph(SUB, "the part below")
 
     def _parameters_of(self, before: Sequence[Token], kind: Kind) -> Iterator[Completion]:
         """Yield the parameters of the definition that is being written, of a kind or of one that is not known."""

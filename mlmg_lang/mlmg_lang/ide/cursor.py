@@ -127,7 +127,10 @@ def _ends_in_hyphen(tokens: Sequence[Token]) -> bool:
 
 
 def _behind(before: Sequence[Token], after: Sequence[Token], offset: int) -> tuple[Token, ...]:
-    """Return the tokens of the statement of a word that stand behind it; none if the first would become part of it."""
+    """Return the tokens of the statement of a word that stand behind it.
+
+    None if the first would become part of the word, or a parenthesis is still open: it is not known what that says.
+    """
     if not after or (_is_word(after[0]) and after[0].span.start == offset):
         return ()
     here = Token("NAME", "", Span(offset, offset))
@@ -137,7 +140,8 @@ def _behind(before: Sequence[Token], after: Sequence[Token], offset: int) -> tup
         if isinstance(item, Block):
             waiting += [one for branch in item.branches for one in branch]
         elif here in item.tokens:
-            return item.tokens[item.tokens.index(here) + 1 :]
+            behind = item.tokens[item.tokens.index(here) + 1 :]
+            return behind if _n_open_parentheses(behind) == 0 else ()
     return ()
 
 

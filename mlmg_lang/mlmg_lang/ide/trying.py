@@ -55,8 +55,7 @@ class Trial:
             case What.GRAPH:
                 return goes_on
             case What.DEFINITION:
-                takes = self.reach.definitions.lets[one.name].parameters is not None
-                return not takes or (goes_on and self.behind[0].type == "LEFT")
+                return self.reach.definitions.lets[one.name].parameters is None
         return False
 
     def verdict(self, one: Completion) -> Verdict:

@@ -299,6 +299,7 @@ def test_what_stands_behind_the_cursor_counts(text: str, playing: str, offers: O
         ("¦ with WALK with Left-Hand WAVE", "¦"),
         ("WALK with (¦\nIDLE for 2 sec", "WALK with (¦"),
         ("¦\nUpper-Body TALK", "¦"),
+        ("¦ with Left-Hand (WAVE", "¦"),
     ],
 )
 def test_where_all_would_be_as_wrong_nothing_is_left_out(
