@@ -8,7 +8,7 @@ from typing import cast
 
 import numpy as np
 
-from mlmg_lang.ide.offers import Ranked
+from mlmg_lang.ide.offers import Asked, Ranked
 from mlmg_runtime.arrays import FloatArray
 from mlmg_runtime.library import Library
 from mlmg_runtime.motion_graph import UNREACHABLE, MotionGraph
@@ -48,10 +48,10 @@ def _soonest(own: MotionGraph, rows: list[int], alike: FloatArray) -> Mapping[st
     return {motion: value for motion, value in found if value < np.inf}
 
 
-class Kept(dict[tuple[str, frozenset[str]], Ranked]):
+class Kept(dict[Asked, Ranked]):
     """What was asked last; an editor stays open for weeks."""
 
-    def __setitem__(self, key: tuple[str, frozenset[str]], value: Ranked) -> None:
+    def __setitem__(self, key: Asked, value: Ranked) -> None:
         """Keep one more; where there are many, nothing else."""
         if len(self) >= _MOST_KEPT:
             self.clear()

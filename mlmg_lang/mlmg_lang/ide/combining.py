@@ -44,12 +44,12 @@ class Partners:
     ----------
     above : what may be played above the graphs that names are on then, for each way to be there.
     left : by the same, the motions of the graph that go with what stands left.
-    by_name : what each name does that can stand there.
+    names : by the same, the names that do that.
     """
 
     above: Mapping[Partner, Collection[str]]
-    left: Mapping[Partner, Collection[str]]
-    by_name: Mapping[str, Partner]
+    left: Mapping[Partner, frozenset[str]]
+    names: Mapping[Partner, Collection[str]]
 
 
 def partners(
@@ -81,13 +81,15 @@ def partners(
     shared = {} if whole else dict(_shared(on, own, tops, names))
     fitting = common | {partner: motions for partner, (motions, _) in shared.items()}
     above = {partner: tops.get(partner.graph, ()) for partner in common}
-    by_name: dict[str, Partner] = {}
-    # What is the same on one graph is not shared out, and what rule 1 forbids there is nothing.
+    possible: dict[Partner, frozenset[str]] = {}
+    known: frozenset[str] = frozenset()
     for partner, motions in fitting.items():
-        for entry in names.entries(partner.graph):
-            if entry.name not in by_name and not motions.isdisjoint(entry.motions):
-                by_name[entry.name] = partner
-    possible = {name: one for name, one in by_name.items() if one.beside is not None or one.graph in tops}
+        entries = names.entries(partner.graph) if motions else ()
+        found = frozenset([one.name for one in entries if not motions.isdisjoint(one.motions)]) - known
+        known |= found
+        # What is the same on one graph is not shared out, and what rule 1 forbids there is nothing.
+        if found and (partner.beside is not None or partner.graph in tops):
+            possible[partner] = found
     return Partners(above | {partner: over for partner, (_, over) in shared.items()}, fitting, possible)
 
 

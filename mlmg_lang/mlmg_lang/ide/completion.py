@@ -14,7 +14,7 @@ from typing import Final, TypeAlias
 
 from mlmg_lang.definitions.gather import Definitions, Kind
 from mlmg_lang.ide.arguments import argument_at, names_of_definition, parameter_kinds
-from mlmg_lang.ide.combining import Partner, Partners
+from mlmg_lang.ide.combining import Partners
 from mlmg_lang.ide.cursor import Cursor
 from mlmg_lang.ide.offers import Completion, Offers, What, best_fit
 from mlmg_lang.ide.reach import Below, Reach, expression, left_of_with
@@ -235,10 +235,11 @@ class _Completer:
         What they do there counts alone: the best of their motions that go with it come first.
         """
         found: tuple[list[list[Completion]], list[list[Completion]]] = ([], [])
-        for partner, motions in partners.left.items():
+        for partner, own in partners.names.items():
+            motions = partners.left[partner]
             names = self._on(partner.graph, partners.above[partner], partner.beside)
             fits = self.fits[partner.graph, partner.beside]
-            here = [_within(one, motions, partner) for one in names if partners.by_name.get(one.name) is partner]
+            here = [_within(one, motions) for one in names if one.name in own]
             best = [best_fit(one, fits) for one in here]
             order = sorted((at for at in range(len(here)) if best[at] < inf), key=best.__getitem__)
             found[partner.beside is not None].append([here[at] for at in order])
@@ -284,7 +285,7 @@ class _Completer:
 
     def _on(self, graph: str, above: Collection[str], beside: str | None = None) -> Sequence[Completion]:
         """Return the names on a graph that mean what they mean there, and note how well its motions fit."""
-        found, self.fits[graph, beside] = self.around.offers.on(graph, above)
+        found, self.fits[graph, beside] = self.around.offers.on(graph, above, beside)
         definitions = self.around.definitions
         hidden = self.around.names.spelt(graph, {*definitions.lets, *definitions.unread, *self.own})
         return [one for one in found if one.name not in hidden] if hidden else found
@@ -328,11 +329,11 @@ def _named(parameter: syntax.Parameter, owner: str) -> Completion:
     return Completion(f"{script_name(name)} = ", f"{name} = ", What.ARGUMENT, owner=owner)
 
 
-def _within(one: Completion, motions: Collection[str], partner: Partner) -> Completion:
+def _within(one: Completion, motions: frozenset[str]) -> Completion:
     """Return a name as what it does right of an `and`: it stands for some motions alone."""
-    if partner.beside is None and len(one.motions) == 1:
+    if motions.issuperset(one.motions):
         return one
-    return one._replace(motions=tuple(filter(motions.__contains__, one.motions)), beside=partner.beside)
+    return one._replace(motions=tuple(filter(motions.__contains__, one.motions)))
 
 
 def _graph(graph: str, says: str) -> Completion:

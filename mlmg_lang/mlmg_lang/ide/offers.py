@@ -6,10 +6,13 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum
 from math import inf
-from typing import NamedTuple, Protocol
+from typing import NamedTuple, Protocol, TypeAlias
 
 from mlmg_lang.parsing.lexical import script_name
 from mlmg_lang.planning.names import Entry, Kind, Names
+
+Asked: TypeAlias = tuple[str, frozenset[str], str | None]
+"""A graph, what may be played above it, and the graph beside it as in `Completion`."""
 
 
 class What(StrEnum):
@@ -80,18 +83,23 @@ class Offers:
     names: Names
     fits: Fits
     uses: Mapping[str, int] = field(default_factory=dict)
-    _known: dict[tuple[str, frozenset[str]], Ranked] = field(default_factory=dict)
-    _listed: dict[str, tuple[Completion, ...]] = field(default_factory=dict)
+    _known: dict[Asked, Ranked] = field(default_factory=dict)
+    _listed: dict[tuple[str, str | None], tuple[Completion, ...]] = field(default_factory=dict)
 
-    def on(self, graph: str, above: Collection[str]) -> Ranked:
-        """Return the names on a graph whose motions can be had, what fits best first, then what is used most."""
-        key = (graph, frozenset(above))
+    def on(self, graph: str, above: Collection[str], beside: str | None = None) -> Ranked:
+        """Return the names on a graph whose motions can be had, what fits best first, then what is used most.
+
+        Parameters
+        ----------
+        beside : as in `Completion`.
+        """
+        key = (graph, frozenset(above), beside)
         found = self._known.get(key)
         if found is None:
-            if graph not in self._listed:
-                self._listed[graph] = tuple(_named(entry, graph) for entry in self.names.entries(graph))
+            if (graph, beside) not in self._listed:
+                self._listed[graph, beside] = tuple(_named(one, graph, beside) for one in self.names.entries(graph))
             fits = self.fits.fits(graph, above)
-            found = self._known[key] = Ranked(self._ranked(self._listed[graph], fits), fits)
+            found = self._known[key] = Ranked(self._ranked(self._listed[graph, beside], fits), fits)
         return found
 
     def _ranked(self, listed: Sequence[Completion], fits: Mapping[str, float]) -> tuple[Completion, ...]:
@@ -102,9 +110,9 @@ class Offers:
         return tuple([listed[at] for at in order])
 
 
-def _named(entry: Entry, graph: str) -> Completion:
+def _named(entry: Entry, graph: str, beside: str | None) -> Completion:
     what = What.MOTION if entry.kind is Kind.MOTION else What.TAG
-    return Completion(script_name(entry.name), entry.name, what, graph, entry.motions)
+    return Completion(script_name(entry.name), entry.name, what, graph, entry.motions, beside=beside)
 
 
 def best_fit(one: Completion, fits: Mapping[str, float]) -> float:
