@@ -64,7 +64,7 @@ def piece_lenses(piece: Statement, played: Iterable[resolved.Statement]) -> tupl
     ----------
     played : what is played by it, at its addresses.
     """
-    titles = {command.span: _title(command) for command in _commands(played)}
+    titles = {command.span: _title(command) for command in resolved.commands(played)}
     return tuple(_candidates(piece, titles)) if titles else ()
 
 
@@ -82,17 +82,6 @@ def _candidates(piece: Statement, titles: Mapping[Span, str]) -> Iterator[Lens]:
 def _moved(lens: Lens, further: int) -> Lens:
     span = lens.span.shifted(further)
     return replace(lens, span=span, about=span)
-
-
-def _commands(statements: Iterable[resolved.Statement]) -> Iterator[resolved.Command]:
-    for statement in statements:
-        match statement:
-            case resolved.Command():
-                yield statement
-            case resolved.Repeat(body=body):
-                yield from _commands(body)
-            case resolved.Choose(branches):
-                yield from (command for branch in branches for command in _commands(branch.body))
 
 
 def _title(command: resolved.Command) -> str:

@@ -49,7 +49,9 @@ def _in_command(analysis: Analysis, command: syntax.Command, use: _Use) -> Mappi
     ways = select(motion, names, analysis.made.addressed, explains=False)
     assert not isinstance(ways, Diagnostic), "it is understood where it stands"
     found: dict[str, set[str]] = {}
-    for choice in (one for layer in ways[0].layers for one in _from(layer.choice, apart)):
+    taken = [(layer.graph, layer.motions) for layer in says.way.layers]
+    way = next(way for way in ways if [(layer.graph, layer.motions) for layer in way.layers] == taken)
+    for choice in (one for layer in way.layers for one in _from(layer.choice, apart)):
         # An `and` in an `and` is one with it, so that there may be several.
         found.setdefault(choice.graph, set(choice.motions)).intersection_update(choice.motions)
     return {graph: names.in_order(graph, motions) for graph, motions in found.items()}

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import TypeAlias
 
@@ -143,3 +144,15 @@ class ResolvedPlan:
     start: str
     statements: tuple[Statement, ...]
     ahead: bool = False
+
+
+def commands(statements: Iterable[Statement]) -> Iterator[Command]:
+    """Yield the commands of statements, those in blocks too, in the order of the text."""
+    for statement in statements:
+        match statement:
+            case Command():
+                yield statement
+            case Repeat(body=body):
+                yield from commands(body)
+            case Choose(branches):
+                yield from (command for branch in branches for command in commands(branch.body))

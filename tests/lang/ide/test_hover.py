@@ -155,6 +155,8 @@ def test_a_definition_is_told_with_its_text_and_its_type(found):
             ["Full-Body: Walk_01, Walk_02, Walk_03", "Upper-Body: Talk_01, Talk_02"],
         ),
         ("let A = SWING_HAND and (Walk_01 or Talk_01)\nUpper-Body (SWING_HAND and ¦A)", ["Upper-Body: Walk_01"]),
+        ("Idle_02\nlet A = Walk_01\nSWING_HAND and ¦A and WAVE", ["Full-Body: Walk_01"]),
+        ("Idle_01\nlet A = Walk_01\nSWING_HAND and ¦A and WAVE", ["Upper-Body: Walk_01"]),
         ("let A = TALK\nlet G(x) = x with ¦A", []),
         ("let A = TALK\nlet G(x) = WALK\nG(¦A)", []),
         ("let A = TALK\nWALK with Upper-Body ¦A with Upper-Body A", []),
