@@ -124,6 +124,14 @@ class Reach:
             return Verdict.SOUND
         return Verdict.FORBIDDEN if ways else Verdict.WRONG
 
+    def left_on(self, graph: str, command: Sequence[Token]) -> frozenset[str]:
+        """Return the motions that rule 1 leaves of a graph in the tokens of a command; none if it is wrong."""
+        names = self.names
+        way = next((way for way in self._ways(command) or () if self._may_be_driven(way)), None)
+        layers = {} if way is None else {layer.graph: layer.motions for layer in way.layers}
+        below = (names.motion_set(one) for one in layers if graph in names.ancestors(one))
+        return frozenset(layers.get(graph, ())).intersection(*below)
+
     def _may_be_driven(self, way: Layering) -> bool:
         """Return whether rule 1 allows each layer below those above it, or below what may be playing."""
         names, layers = self.names, {layer.graph: layer for layer in way.layers}

@@ -80,3 +80,39 @@ def test_however_many_definitions_there_are_those_that_are_meant_are_tried(found
     defined = "\n".join(f'let D_{number} = "wave hand"' for number in range(60)) + "\nlet D_ARM = Upper-Body wave"
     assert "D_59" in [name for _, name in found("D_59¦", defined)[1]]
     assert [name for _, name in found("wave with D_59¦", defined)[1]] == []
+
+
+@pytest.fixture
+def in_large(catalog, in_order):
+    """Return a function: a text with `¦` for the cursor -> what is meant there, in a library of many motions."""
+    clips = [f"m_{number:03}" for number in range(400)]
+    arm = dict.fromkeys((*clips[390:], "other"), ())
+    library = catalog({"Body": dict.fromkeys((*clips, "other"), ()), "Arm": arm}, {"Arm": "Body"}, start=clips[0])
+    names = Names(library)
+
+    def ask(text: str) -> Matches:
+        before, _, after = text.partition("¦")
+        source = Source(before + after)
+        around = Surroundings(
+            names, analyse(Source("")).definitions, flow.begin(names, clips[395]), Offers(names, in_order(names))
+        )
+        return matches(source, tokenize(source), len(before), around, MOST)
+
+    return ask
+
+
+@pytest.mark.parametrize("text", ["m¦ with Arm m_391", "¦ with Arm m_391 for 2 sec", "(m¦) with m_391"])
+def test_what_is_right_with_what_stands_behind_is_found_among_however_many_names(in_large, text):
+    meant = in_large(text)
+    assert [one.name for one in meant.found if one.graph][:10] == [f"m_{number}" for number in range(390, 400)]
+    assert not meant.is_final
+
+
+def test_what_begins_so_and_would_be_wrong_is_not_offered_where_another_name_would_be_right(in_large):
+    assert [one.name for one in in_large("m_00¦ with Arm m_391").found] == []
+    assert [one.name for one in in_large("m_39¦ with Arm m_391").found] == [f"m_{number}" for number in range(390, 400)]
+    assert in_large("m_39¦ with Arm m_391").is_final
+
+
+def test_a_word_that_stands_right_behind_the_cursor_would_be_of_the_name(in_large):
+    assert in_large("¦Arm m_391").found == in_large("¦").found
