@@ -40,9 +40,15 @@ def unsettle() -> None:
 
 
 def clear_out() -> None:
-    """Look through all at once, after something large has been let go of: the search does not know how large it is."""
+    """Look through all at once, and give back what is free, after something large has been let go of.
+
+    The search would come too late, as it does not know how large it was.
+    """
     gc.unfreeze()
     gc.collect()
+    if sys.platform == "linux":  # what lies between what is still used is not given back by itself
+        with suppress(OSError, AttributeError):
+            ctypes.CDLL(None).malloc_trim(0)
 
 
 def forget_way(error: BaseException | None) -> None:
