@@ -16,9 +16,9 @@ from mlmg_lang.definitions.gather import Definitions, Kind
 from mlmg_lang.ide.arguments import argument_at, names_of_definition, parameter_kinds
 from mlmg_lang.ide.combining import Partners
 from mlmg_lang.ide.cursor import Cursor
+from mlmg_lang.ide.next_words import next_units, next_words
 from mlmg_lang.ide.offers import Completion, Offers, What, best_fit
 from mlmg_lang.ide.reach import Below, Reach, expression, left_of_with
-from mlmg_lang.ide.words import UNIT_SAYS, WORDS
 from mlmg_lang.parsing import syntax
 from mlmg_lang.parsing.build_syntax import name_from_token
 from mlmg_lang.parsing.lexical import in_quotes, script_name
@@ -32,9 +32,6 @@ from mlmg_lang.spelling import counted, joined, normal
 
 Place: TypeAlias = tuple[str, str | None]
 """A graph that a name is on, and the one beside it that what stands left of `and` is on, if any."""
-_UNITS: Final = ("sec", "ms", "min", "frames", "cycles")
-_STATEMENT_WORDS: Final = frozenset({"WAIT", "END", "REPEAT", "CHOOSE", "LET", "USE"})
-_TOP_LEVEL: Final = frozenset({"LET", "USE"})
 _BEFORE_OWN: Final = 10
 """So many names of the library stand before the script's own where nothing has been written yet."""
 
@@ -128,38 +125,12 @@ class _Completer:
         if types is None:
             return
         if before and before[-1].type in ("INTEGER", "DECIMAL"):
-            yield (Completion(unit, unit, What.UNIT, says=UNIT_SAYS[unit]) for unit in _UNITS if "UNIT" in types)
+            yield next_units(types)
             return
         if types & NAMES:
             yield from self._names(before)
         if not before or self.reach.qualifier(expression(before)) is None or before[-1].type not in NAMES:
-            yield self._words(types)
-
-    # --- words ---
-
-    def _words(self, types: Collection[str]) -> Iterator[Completion]:
-        continuing = accepted(self.cursor.last) or frozenset() if self.cursor.last else frozenset()
-        for terminal, says in WORDS.items():
-            if terminal in _TOP_LEVEL and self.cursor.nested:
-                continue
-            if terminal in types or (terminal in continuing and terminal not in _STATEMENT_WORDS):
-                if terminal == "WITH" and not self._leaves_room(self.cursor.before or self.cursor.last):
-                    continue
-                if terminal == "NOT" and not self._takes_motion(expression(self.cursor.before)):
-                    continue
-                yield Completion(terminal.lower(), terminal.lower(), What.WORD, says=says)
-
-    def _leaves_room(self, motion: Sequence[Token]) -> bool:
-        """Return whether a `with` behind a motion would leave a graph to speak of."""
-        return self.reach.leaves_room(expression(motion))
-
-    def _takes_motion(self, own: Sequence[Token]) -> bool:
-        """Return whether a motion can come next: on a graph that the `with` before has left, if there is one."""
-        argument = argument_at(own, self.around.definitions)
-        if argument is not None and not argument.takes_motion:
-            return False
-        left = left_of_with(own)
-        return left is None or self.reach.leaves_room(left)
+            yield next_words(types, self.cursor, self.reach)
 
     # --- names ---
 
