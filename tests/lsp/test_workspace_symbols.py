@@ -35,7 +35,7 @@ def test_definitions_of_open_and_used_files_are_listed_once(client):
 
 
 def test_the_likeliest_come_first_and_names_of_the_library_too_where_it_is_known_where_they_are(client):
-    assert found(client, "walk") == [("walk_off", "a.ms", 2), ("WALK", "my.toml", 2), ("slow_walk", "used.ms", 1)]
+    assert found(client, "walk") == [("WALK", "my.toml", 2), ("walk_off", "a.ms", 2), ("slow_walk", "used.ms", 1)]
     assert found(client, "idle") == [("IDLE", "my.toml", 3)]
     assert found(client, "swk") == [("slow_walk", "used.ms", 1)]
     assert found(client, "nothing") == []

@@ -108,5 +108,5 @@ def test_names_of_libraries_are_looked_among_too_and_only_the_likeliest_are_retu
     names = [LibraryName("WALK", True), LibraryName("Walk_01", False)]
     found = workspace_symbols([script], "walk", names)
     told = [one.name if isinstance(one, LibraryName) else one.symbol.name for one in found]
-    assert told == ["walk_off", "WALK", "Walk_01", "slow_walk"]
+    assert told == ["WALK", "walk_off", "Walk_01", "slow_walk"]
     assert workspace_symbols([script], "walk", names, most=2) == found[:2]
