@@ -26,7 +26,7 @@ Paths: TypeAlias = tuple[str, tuple[str, ...]]
 
 
 @dataclass(frozen=True, slots=True)
-class Users:
+class Dependents:
     """The scripts that use a file and are not open.
 
     Attributes
@@ -58,7 +58,7 @@ class ClosedScripts:
         self._files = files
         self._looks: dict[str, _Look] = {}
 
-    def users(self, home: str, folders: Sequence[Path], snapshot: Snapshot) -> Users:
+    def users(self, home: str, folders: Sequence[Path], snapshot: Snapshot) -> Dependents:
         """Return the scripts in some folders, and below, that use a file, themselves or by way of others.
 
         Parameters
@@ -77,7 +77,7 @@ class ClosedScripts:
         unread = [f"{closed[real].path} {look.wrong}" for real, look in looks.items() if look.wrong]
         unread += [one for one in read if isinstance(one, str)]
         analyses = tuple(one for one in read if not isinstance(one, str))
-        return Users(analyses, tuple(unread), _left_out(below, opened))
+        return Dependents(analyses, tuple(unread), _left_out(below, opened))
 
     def _look(self, script: Found) -> _Look:
         before = self._looks.get(script.real)

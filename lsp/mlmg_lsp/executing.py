@@ -13,13 +13,13 @@ from lsprotocol import types
 from pygls.exceptions import JsonRpcException, JsonRpcInvalidParams
 from pygls.lsp.server import LanguageServer
 
-from mlmg_lsp.asked import Asked, Refused, asked_from
 from mlmg_lsp.background import Background
+from mlmg_lsp.command_arguments import CommandArguments, Refused, arguments_from
 from mlmg_lsp.documents import Documents
 from mlmg_lsp.features import COMMANDS, answer_named
 from mlmg_lsp.open_text import Snapshot, path_of
 from mlmg_lsp.pages import Pages
-from mlmg_lsp.progress import Bar
+from mlmg_lsp.progress import WorkDoneProgress
 from mlmg_lsp.work import off_loop
 
 if TYPE_CHECKING:
@@ -57,7 +57,7 @@ class Executor:
         """
         if params.command not in COMMANDS:
             raise JsonRpcInvalidParams(f"there is no command {params.command!r}; there are {', '.join(COMMANDS)}")
-        asked = asked_from(params.arguments)
+        asked = arguments_from(params.arguments)
         # What is being imported must not be interrupted.
         do: Callable[..., Done] = await asyncio.shield(off_loop(partial(answer_named, COMMANDS[params.command])))
         if params.command == "mlmg.rule":
@@ -78,14 +78,14 @@ class Executor:
         """Leave nothing behind but what was asked for."""
         self._pages.clear()
 
-    async def _snapshot_of(self, asked: Asked) -> Snapshot:
+    async def _snapshot_of(self, asked: CommandArguments) -> Snapshot:
         if self._documents.get(asked.uri) is None:
             raise Refused(f"{asked.uri} is not open in the editor; open it first")
         return await self._snapshot(asked.uri)
 
     async def _shown(self, params: types.ExecuteCommandParams, work: Callable[[Callable[..., object]], Done]) -> Done:
         """Return what some work comes to, which the person sees going on and can give up."""
-        bar = Bar(self._server, self._documents.client.progress, params.work_done_token)
+        bar = WorkDoneProgress(self._server, self._documents.client.progress, params.work_done_token)
         task = asyncio.ensure_future(off_loop(lambda: work(bar.tell)))
         bar.begin(_TITLES[params.command], task.cancel)
         try:
@@ -93,7 +93,7 @@ class Executor:
         finally:
             bar.end()
 
-    async def _may_write(self, asked: Asked) -> bool:
+    async def _may_write(self, asked: CommandArguments) -> bool:
         """Return whether a motion may be written: over a file that was there before only if the person says so."""
         path = asked.to
         if path is None or asked.chosen or path in self._written or not path.exists():
@@ -111,7 +111,7 @@ class Executor:
         self._say(f"{path} was left as it is.")
         return False
 
-    def _show(self, done: Done, asked: Asked) -> None:
+    def _show(self, done: Done, asked: CommandArguments) -> None:
         """Show what came of a command; the client may take its time for a page, or never say that it is shown."""
         if done.page is not None:
             path = self._pages.write(asked.uri, *done.page)
@@ -138,7 +138,7 @@ class Executor:
         self._server.window_show_message(types.ShowMessageParams(types.MessageType.Info, message))
 
 
-def _with_target(asked: Asked) -> Asked:
+def _with_target(asked: CommandArguments) -> CommandArguments:
     """Return a command with the file to write: beside the script, unless it says where.
 
     Raises

@@ -14,7 +14,7 @@ from mlmg_lsp.documents import Documents
 from mlmg_lsp.libraries import Shelved
 from mlmg_lsp.offering import offer_demo
 from mlmg_lsp.open_text import Document
-from mlmg_lsp.progress import Bar
+from mlmg_lsp.progress import WorkDoneProgress
 from mlmg_lsp.workspace import Workspace
 from mlmg_runtime.errors import MlmgError
 
@@ -61,7 +61,7 @@ class LibraryFinder:
             self.look(document)
 
     async def _find(self, document: Document) -> None:
-        bar = Bar(self._server, self._documents.client.progress)
+        bar = WorkDoneProgress(self._server, self._documents.client.progress)
         try:
             shelved = await self._workspace.find(document, bar.report, lambda: bar.begin("Loading the library"))
             if shelved is None:

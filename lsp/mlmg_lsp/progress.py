@@ -12,7 +12,7 @@ from pygls.exceptions import JsonRpcException
 from pygls.lsp.server import LanguageServer
 
 
-class Bar:
+class WorkDoneProgress:
     """What a client shows while something is done; nothing where it cannot. The work does not wait for the client."""
 
     def __init__(self, server: LanguageServer, shown: bool, token: types.ProgressToken | None = None) -> None:

@@ -11,10 +11,10 @@ from lsprotocol import types
 from pygls.exceptions import JsonRpcContentModified
 from pygls.lsp.server import LanguageServer
 
-from mlmg_lsp.asking import Asker
 from mlmg_lsp.background import Background
 from mlmg_lsp.client import client_from
-from mlmg_lsp.closed import ClosedScripts, Users
+from mlmg_lsp.client_requests import ClientRequests
+from mlmg_lsp.closed import ClosedScripts, Dependents
 from mlmg_lsp.documents import Documents
 from mlmg_lsp.executing import Executor
 from mlmg_lsp.features import FEATURES, get_ahead, warm
@@ -22,7 +22,7 @@ from mlmg_lsp.finding import LibraryFinder
 from mlmg_lsp.foresight import Foresight
 from mlmg_lsp.libraries import Shelf, Shelved
 from mlmg_lsp.open_text import Document, Snapshot, Superseded, path_of
-from mlmg_lsp.telling import Telling
+from mlmg_lsp.publishing import DiagnosticsPublisher
 from mlmg_lsp.work import off_loop
 from mlmg_lsp.workspace import Settings, Workspace, folders_of
 
@@ -44,11 +44,13 @@ class ClientSession:
         self.background = Background()
         self.workspace = Workspace(settings, shelf)
         self._closed = ClosedScripts(self.workspace.files_on_disk)
-        self._telling = Telling(server)
-        self.documents = Documents(self.workspace.files, self._telling.tell, warm, get_ahead, self._is_whole)
-        self._asker = Asker(server, self.documents, self.background)
+        self._publisher = DiagnosticsPublisher(server)
+        self.documents = Documents(self.workspace.files, self._publisher.tell, warm, get_ahead, self._is_whole)
+        self._requests = ClientRequests(server, self.documents, self.background)
         self._finder = LibraryFinder(server, self.workspace, self.documents, self.background, self._take_library)
-        self.foresight = Foresight(self._get_hints, partial(self._asker.refresh, "inlay_hint"), self._tell_not_foreseen)
+        self.foresight = Foresight(
+            self._get_hints, partial(self._requests.refresh, "inlay_hint"), self._tell_not_foreseen
+        )
         self.executor = Executor(server, self.documents, self.snapshot, self.background)
 
     # --- beginning and end ---
@@ -63,8 +65,8 @@ class ClientSession:
     def begun(self, _params: types.InitializedParams) -> None:
         """Get ready, and ask the client for what it can be asked for."""
         self.background.begin(self.documents.warm())
-        self._asker.watch_files()
-        self._asker.tell_settings(self._set_settings)
+        self._requests.watch_files()
+        self._requests.tell_settings(self._set_settings)
 
     def end(self) -> None:
         """Let go of all."""
@@ -92,15 +94,15 @@ class ClientSession:
         except Superseded as error:
             raise JsonRpcContentModified(str(error)) from None
 
-    async def closed_users(self, snapshot: Snapshot, params: Any) -> Users:
+    async def closed_users(self, snapshot: Snapshot, params: Any) -> Dependents:
         """Return the scripts that are not open and use the file which defines the name at a place."""
 
-        def look() -> Users:
+        def look() -> Dependents:
             from mlmg_lsp.features.navigation import home_of
 
             home = home_of(snapshot, params)
             if home is None:
-                return Users()
+                return Dependents()
             own = path_of(snapshot.uri)
             folders = self.workspace.folders_around(home, *(() if own is None else (own,)))
             return self._closed.users(str(home), folders, snapshot)
@@ -114,7 +116,7 @@ class ClientSession:
     def opened(self, params: types.DidOpenTextDocumentParams) -> None:
         """Take in a text, and look again at those that use it if it is another than what they have read."""
         document = self.documents.open(params.text_document)
-        self._telling.opened(document.name, document.uri)
+        self._publisher.opened(document.name, document.uri)
         self._finder.look(document)
         outdated = [] if document.path is None else self.documents.outdated_users(document.path)
         self._look_again([*outdated, *self.documents.incomplete()])
@@ -140,7 +142,7 @@ class ClientSession:
         self.documents.close(uri)
         self.foresight.forget(uri)
         if document is not None:
-            self._telling.forget(document.name, self.documents.client.pulls)
+            self._publisher.forget(document.name, self.documents.client.pulls)
         path = path_of(uri)
         if path is not None:
             self._used_changed(path)
@@ -151,7 +153,7 @@ class ClientSession:
     def settings_changed(self, params: types.DidChangeConfigurationParams) -> None:
         """Take the settings that the client sends; one that can be asked for them may send none."""
         if self.documents.client.configuration:
-            self._asker.tell_settings(self._set_settings)
+            self._requests.tell_settings(self._set_settings)
         else:
             self._set_settings(params.settings)
 
@@ -180,16 +182,16 @@ class ClientSession:
         self.workspace.set_client(settings)
         now = self.workspace.settings
         if now.hints != before.hints:
-            self._asker.refresh("inlay_hint")
+            self._requests.refresh("inlay_hint")
         if replace(now, hints=before.hints) != before:
             self._finder.look_for_all()
             for document in self.documents.all():
                 self.documents.reconsider(document)
-            self._asker.refresh()
+            self._requests.refresh()
 
     def _is_whole(self) -> None:
         """Let the client ask again for what has been answered by a beginning."""
-        self._asker.refresh(*(feature.refreshed for feature in FEATURES if feature.refreshed))
+        self._requests.refresh(*(feature.refreshed for feature in FEATURES if feature.refreshed))
 
     def _take_library(self, document: Document, shelved: Shelved | None) -> None:
         """Look again at a text that has another library than before."""
@@ -202,7 +204,7 @@ class ClientSession:
         document.found.set()
         if is_another and document.begun:
             self.documents.analyse(document, afresh=True)
-            self._asker.refresh()
+            self._requests.refresh()
 
     def _used_changed(self, path: Path) -> None:
         """Look again at the texts that use a file."""
@@ -212,7 +214,7 @@ class ClientSession:
         for document in users:
             self.documents.analyse(document, afresh=True)
         if users:
-            self._asker.refresh()
+            self._requests.refresh()
 
     def _get_hints(self, snapshot: Snapshot, outlook: Outlook) -> None:
         from mlmg_lsp.features import inlay_hint

@@ -10,7 +10,7 @@ from mlmg_lang.definitions.gather import NoFiles
 from mlmg_lang.front_end import analyse
 from mlmg_lang.source import Source
 from mlmg_lsp.client import Client
-from mlmg_lsp.closed import ClosedScripts, Users
+from mlmg_lsp.closed import ClosedScripts, Dependents
 from mlmg_lsp.libraries import Shelf
 from mlmg_lsp.open_text import Snapshot
 from mlmg_lsp.scripts_below import scripts_below
@@ -217,7 +217,7 @@ def test_a_script_that_is_gone_when_it_is_looked_into_uses_nothing(tmp_path):
     asked = Snapshot(gest.as_uri(), 1, analyse(Source(GEST, str(gest))), None, Client())
     closed = ClosedScripts(lambda _: NoFiles())
     assert closed._look(found).wrong == ""
-    assert closed.users(str(gest), [tmp_path], asked) == Users()
+    assert closed.users(str(gest), [tmp_path], asked) == Dependents()
 
 
 def test_for_a_file_right_below_the_root_of_a_file_system_nothing_is_searched(tmp_path):

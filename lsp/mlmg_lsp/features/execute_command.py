@@ -18,7 +18,7 @@ from mlmg_lang.explaining.text import render_statements, render_text
 from mlmg_lang.perform import perform, write_report
 from mlmg_lang.planning.resolved import ResolvedPlan
 from mlmg_lang.rules import read_rule
-from mlmg_lsp.asked import Asked, Refused
+from mlmg_lsp.command_arguments import CommandArguments, Refused
 from mlmg_lsp.convert import offset_of
 from mlmg_lsp.open_text import Snapshot
 from mlmg_runtime import bvh
@@ -49,7 +49,7 @@ class Done:
     page: tuple[str, str] | None = None
 
 
-def play(snapshot: Snapshot, asked: Asked, progress: Progress) -> Done:
+def play(snapshot: Snapshot, asked: CommandArguments, progress: Progress) -> Done:
     """Play a script, and write the motion.
 
     Raises
@@ -78,7 +78,7 @@ def play(snapshot: Snapshot, asked: Asked, progress: Progress) -> Done:
     return Done(f"{asked.to}: {performance.summary}", {"uri": asked.to.as_uri(), **facts})
 
 
-def explain(snapshot: Snapshot, _asked: Asked, _progress: Progress) -> Done:
+def explain(snapshot: Snapshot, _asked: CommandArguments, _progress: Progress) -> Done:
     """Tell what a script will do, and why.
 
     Raises
@@ -91,7 +91,7 @@ def explain(snapshot: Snapshot, _asked: Asked, _progress: Progress) -> Done:
     return Done("", {"text": text}, (f"{_stem(snapshot)}.explained.txt", text))
 
 
-def candidates(snapshot: Snapshot, asked: Asked, _progress: Progress) -> Done:
+def candidates(snapshot: Snapshot, asked: CommandArguments, _progress: Progress) -> Done:
     """Tell which motions a command may play, in the order in which they are tried, and why others are left out.
 
     Of a script with mistakes it is said first that it has some; what a command may play is then told as if what cannot

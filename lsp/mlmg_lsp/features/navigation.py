@@ -13,8 +13,8 @@ from mlmg_lang.ide import links, references, rename, signature
 from mlmg_lang.ide.occurrences import Place
 from mlmg_lang.script_files import read_script
 from mlmg_lang.source import Source, Span
-from mlmg_lsp.asked import Refused
-from mlmg_lsp.closed import Users
+from mlmg_lsp.closed import Dependents
+from mlmg_lsp.command_arguments import Refused
 from mlmg_lsp.convert import (
     edit_in,
     index_after,
@@ -64,7 +64,7 @@ def home_of(snapshot: Snapshot, params: types.ReferenceParams | types.RenamePara
     return None if home is None or not Path(home).is_absolute() else Path(home)
 
 
-def references_of(snapshot: Snapshot, params: types.ReferenceParams, users: Users) -> list[types.Location]:
+def references_of(snapshot: Snapshot, params: types.ReferenceParams, users: Dependents) -> list[types.Location]:
     """Return where the name at a place is used, in all open texts too, and in scripts that use its file."""
     offset, declared = _offset(snapshot, params.position), params.context.include_declaration
     snapshot = _with(snapshot, users)
@@ -95,7 +95,7 @@ def prepare_rename(snapshot: Snapshot, params: types.PrepareRenameParams) -> typ
     return types.PrepareRenamePlaceholder(_range(snapshot, found.span), found.name)
 
 
-def rename_to(snapshot: Snapshot, params: types.RenameParams, users: Users) -> types.WorkspaceEdit:
+def rename_to(snapshot: Snapshot, params: types.RenameParams, users: Dependents) -> types.WorkspaceEdit:
     """Return the edits that give the name at a place another.
 
     Raises
@@ -145,7 +145,7 @@ def signature_help(snapshot: Snapshot, params: types.SignatureHelpParams) -> typ
     return types.SignatureHelp([shown], 0, active)
 
 
-def _with(snapshot: Snapshot, users: Users) -> Snapshot:
+def _with(snapshot: Snapshot, users: Dependents) -> Snapshot:
     """Return what is known of a text together with what is known of scripts that are not open."""
     return replace(snapshot, others=(*snapshot.others, *users.analyses))
 

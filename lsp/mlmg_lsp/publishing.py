@@ -14,7 +14,7 @@ from mlmg_lsp.open_text import Snapshot
 from mlmg_lsp.work import off_loop
 
 
-class Telling:
+class DiagnosticsPublisher:
     """What is to be told, by the names of files, and what has been."""
 
     def __init__(self, server: LanguageServer) -> None:

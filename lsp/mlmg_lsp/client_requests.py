@@ -16,7 +16,7 @@ _SECTION: Final = "mlmg"
 _WATCHED: Final = ("**/*.ms", "**/*.mlmg", "**/library.toml", f"**/{SETTINGS}")
 
 
-class Asker:
+class ClientRequests:
     """Asks one client; nothing waits for what it answers."""
 
     def __init__(self, server: LanguageServer, documents: Documents, background: Background) -> None:

@@ -20,7 +20,7 @@ class Refused(JsonRpcException):
 
 
 @dataclass(frozen=True, slots=True)
-class Asked:
+class CommandArguments:
     """What a command is about.
 
     Attributes
@@ -42,7 +42,7 @@ class Asked:
     chosen: bool = False
 
 
-def asked_from(arguments: Sequence[Any] | None) -> Asked:
+def arguments_from(arguments: Sequence[Any] | None) -> CommandArguments:
     """Return what a command is about: an object, or the URI of a script alone.
 
     Raises
@@ -56,7 +56,7 @@ def asked_from(arguments: Sequence[Any] | None) -> Asked:
     if not (uri or code):
         raise JsonRpcInvalidParams('expected an argument such as {"uri": "file:///stroll.ms"}')
     to, report, shown = _path(said, "to"), _path(said, "report"), said.get("shown") is not False
-    return Asked(uri, _position(said), to, report, shown, code, chosen=to is not None)
+    return CommandArguments(uri, _position(said), to, report, shown, code, chosen=to is not None)
 
 
 def _text(said: Mapping[str, Any], name: str) -> str:
