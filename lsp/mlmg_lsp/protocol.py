@@ -79,6 +79,8 @@ class Protocol(LanguageServerProtocol):
             return
         if raw.get("error", ...) is None:  # as some clients say that there is none
             del raw["error"]
+        if "method" in raw:
+            raw.setdefault("params", None)  # pygls expects it
         number = raw.get("id")
         if self._shutdown and raw.get("method") not in (None, types.EXIT):
             self._refuse(number, JsonRpcInvalidRequest("`shutdown` has come before"))

@@ -92,6 +92,14 @@ def test_a_used_file_that_is_written_while_its_user_is_read_counts_as_it_is_then
     assert lets_of_user(tmp_path, write) == ["stroll"]
 
 
+def test_a_used_file_that_is_opened_while_its_user_is_read_counts_as_it_stands_there(tmp_path):
+    def open_it(documents: Documents, used: Path) -> None:
+        documents.open(item(used, DEFINING)).found.set()
+
+    (tmp_path / "used.ms").write_text("", encoding="utf-8")
+    assert lets_of_user(tmp_path, open_it) == ["stroll"]
+
+
 def test_a_used_file_that_is_closed_unsaved_while_its_user_is_read_counts_as_it_is_on_disk(tmp_path):
     def close(documents: Documents, used: Path) -> None:
         documents.close(used.as_uri())

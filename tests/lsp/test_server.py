@@ -224,6 +224,8 @@ def test_a_request_that_is_not_as_it_should_be_is_refused(start):
     client.initialize()
     assert refusal(client, "textDocument/formatting", {"no": "text"}) == -32602
     assert refusal(client, "no/suchThing", {}) == -32601
+    client.send(id="bare", method="no/suchThing")
+    assert client.outcome("bare")["error"]["code"] == -32601
     assert refusal(client, "initialize", {"capabilities": {}, "processId": None}) == -32600
     client.notify("$/setTrace", {"value": "verbose"})
     client.notify("$/whatever", {"value": 1})

@@ -1,20 +1,6 @@
 """What is wrong in a file that a script uses is told in that file too."""
 
-import asyncio
-from collections.abc import Callable
-from dataclasses import dataclass
-from pathlib import Path
-
 import pytest
-from lsprotocol import types
-
-from mlmg_lang.definitions.gather import Files
-from mlmg_lang.diagnostics import Diagnostic
-from mlmg_lang.script_files import used_files
-from mlmg_lang.source import Source
-from mlmg_lsp.documents import Documents
-from mlmg_lsp.open_text import Document, Snapshot
-from mlmg_lsp.reading import OpenFiles
 
 PUSHED = {"textDocument": {"publishDiagnostics": {"relatedInformation": True}}}
 PULLING = {
@@ -148,44 +134,6 @@ def test_a_text_without_a_file_uses_those_of_the_first_folder_of_the_editor(star
     client.open("untitled:Untitled-2", 'use "../untitled.ms"\namble\n')
     (wrong,) = client.diagnostics("untitled:Untitled-2")
     assert "lies outside of the script's own folders" in wrong["message"]
-
-
-def test_a_file_that_is_opened_while_it_is_read_for_the_first_time_counts_as_it_stands_there(tmp_path, used):
-    used.write_text("", encoding="utf-8")
-
-    @dataclass
-    class Opening:
-        """Finds files, and has the used one opened as soon as it has been read."""
-
-        files: Files
-        opened: Callable[[], object]
-
-        def find(self, path: str, user: str) -> tuple[Source, tuple[Diagnostic, ...]] | str:
-            found = self.files.find(path, user)
-            self.opened()
-            return found
-
-    async def lets() -> list[str]:
-        loop = asyncio.get_running_loop()
-
-        async def opened(path: Path, text: str) -> None:
-            if documents.get(path.as_uri()) is None:
-                documents.open(types.TextDocumentItem(path.as_uri(), "motion-script", 1, text)).found.set()
-
-        def files(document: Document, text_of: Callable[[str], str | None]) -> Files:
-            found = OpenFiles(used_files(tmp_path / "user.ms"), text_of)
-            return Opening(found, lambda: asyncio.run_coroutine_threadsafe(opened(used, RIGHT), loop).result())
-
-        documents = Documents(files, told, lambda: None, lambda _: None, lambda: None)
-        await opened(tmp_path / "user.ms", 'use "moves/used.ms"\nstroll\n')
-        snapshot = await documents.snapshot((tmp_path / "user.ms").as_uri())
-        documents.close_all()
-        return list(snapshot.analysis.definitions.lets)
-
-    async def told(snapshot: Snapshot) -> None:
-        pass
-
-    assert asyncio.run(lets()) == ["stroll"]
 
 
 def test_a_used_file_that_is_opened_as_it_is_changes_nothing(start, tmp_path, used):
