@@ -149,6 +149,8 @@ class Documents:
             await asyncio.wait((ready, document.longer), return_when=asyncio.FIRST_COMPLETED)
         version = document.version
         analysis = await asyncio.shield(ready)
+        if document.version != version:  # edited after that was there, and before it has been waited for
+            raise Superseded(f"{uri} has changed")
         return self._snapshot(document, version, analysis)
 
     def is_current(self, snapshot: Snapshot, with_others: bool = False) -> bool:
@@ -163,6 +165,7 @@ class Documents:
 
     def _snapshot(self, document: Document, version: int, analysis: Analysis) -> Snapshot:
         others = [one for one in self.all() if one is not document]
+        read = [one.analysis.source for one in others if one.analysis is not None]
         return Snapshot(
             document.uri,
             version,
@@ -173,6 +176,7 @@ class Documents:
             tuple(known for one in others if (known := one.known) is not None),
             document.kept,
             document.revision,
+            frozenset(file.name for source in read for file in source.used),
         )
 
     def analyse(self, document: Document, afresh: bool = False) -> None:
@@ -245,7 +249,7 @@ class Documents:
 
     def incomplete(self) -> list[Document]:
         """Return the open texts that use a file which was not there, or could not be read."""
-        return [one for one in self.all() if one.analysis is not None and not one.analysis.definitions.complete]
+        return [one for one in self.all() if one.known is not None and not one.known.made.gathered.used.complete]
 
     def _uses(self, path: Path) -> Iterator[tuple[Document, Source]]:
         """Yield the open texts that use a file, each with what it has read of it."""

@@ -34,6 +34,7 @@ class Snapshot:
     kept : what features keep of a text from one answer to the next, by their names.
     revision : the number of the analysis among all of the client, so that two can be told apart; 0 if it is that of a
         beginning of the text.
+    used : the names of the files that other open texts use, or did before they were edited.
     """
 
     uri: str
@@ -45,6 +46,7 @@ class Snapshot:
     others: tuple[Analysis, ...] = ()
     kept: dict[str, Any] = field(default_factory=dict)
     revision: int = 0
+    used: frozenset[str] = frozenset()
 
 
 @dataclass(frozen=True, slots=True)

@@ -79,7 +79,7 @@ class Reader:
 
     def _is_outdated(self, document: Document, analysis: Analysis) -> bool:
         """Return whether a text may have read another text of a file than there is now, or have missed one."""
-        if document.changed and not analysis.definitions.complete:
+        if document.changed and not analysis.made.gathered.used.complete:
             return True
         used = analysis.source.used
         return any(

@@ -141,6 +141,7 @@ class ClientSession:
         document = self.documents.get(uri)
         self.documents.close(uri)
         self.foresight.forget(uri)
+        self.foresight.keep(one.shelved for one in self.documents.all())
         if document is not None:
             self._publisher.forget(document.name, self.documents.client.pulls)
         path = path_of(uri)

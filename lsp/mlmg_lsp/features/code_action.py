@@ -95,7 +95,7 @@ _KINDS: Final[Mapping[actions.Kind, types.CodeActionKind]] = {
 def _actions(snapshot: Snapshot, span: Span) -> Iterator[types.CodeAction]:
     """Yield what can be rewritten in a stretch, and what silences the diagnostics that are there."""
     source, encoding = snapshot.analysis.source, snapshot.client.encoding
-    for one in actions.actions(snapshot.analysis, span, snapshot.others):
+    for one in actions.actions(snapshot.analysis, span, snapshot.used):
         edits = [types.TextEdit(range_of(source, edit.span, encoding), edit.replacement) for edit in one.edits]
         yield types.CodeAction(
             title=one.title[:1].upper() + one.title[1:],

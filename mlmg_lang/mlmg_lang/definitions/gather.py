@@ -74,7 +74,7 @@ class Definitions:
     ----------
     lets : by name, in NFC.
     signatures : by name, the parameters of those that can be used; those with mistakes, in their text too, have none.
-    complete : False if a file with more of them could not be used.
+    complete : False if a file with more of them could not be used, or one cannot be told by its name.
     unread : the names, in NFC, of those that could not be read.
     """
 

@@ -6,7 +6,7 @@ The compiler's own edits are with its diagnostics; these are the others.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 from typing import Final
@@ -48,19 +48,19 @@ class Action:
     about: Diagnostic | None = None
 
 
-def actions(analysis: Analysis, within: Span, others: Iterable[Analysis] = ()) -> tuple[Action, ...]:
+def actions(analysis: Analysis, within: Span, used: Collection[str] = ()) -> tuple[Action, ...]:
     """Return what can be rewritten in a stretch of a script; what plays stays the same.
 
     Parameters
     ----------
     within : what is selected, or an empty span at the cursor.
-    others : scripts that may use this one.
+    used : the names of the files that other scripts use, as far as known.
     """
     found = [*_suppressions(analysis, within), *_qualifications(analysis, within)]
     extracted = extraction(analysis, within)
     if extracted is not None:
         found.append(Action(f"extract into `let {extracted.name}`", Kind.EXTRACT, extracted.edits))
-    found += [Action(one.title, Kind.INLINE, one.edits) for one in inlinings(analysis, within, others)]
+    found += [Action(one.title, Kind.INLINE, one.edits) for one in inlinings(analysis, within, used)]
     return tuple(found)
 
 

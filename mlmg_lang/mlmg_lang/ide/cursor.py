@@ -129,7 +129,7 @@ def _ends_in_hyphen(tokens: Sequence[Token]) -> bool:
 def _behind(before: Sequence[Token], after: Sequence[Token], offset: int) -> tuple[Token, ...]:
     """Return the tokens of the statement of a word that stand behind it.
 
-    None if the first would become part of the word, or a parenthesis is still open: it is not known what that says.
+    Empty if the first would become part of the word, or a parenthesis is still open: it is not known what that says.
     """
     if not after or (_is_word(after[0]) and after[0].span.start == offset):
         return ()

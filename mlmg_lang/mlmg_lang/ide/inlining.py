@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from itertools import pairwise
 from operator import attrgetter
@@ -28,7 +28,7 @@ class Inlining:
     edits: tuple[Edit, ...]
 
 
-def inlinings(analysis: Analysis, within: Span, others: Iterable[Analysis] = ()) -> Iterator[Inlining]:
+def inlinings(analysis: Analysis, within: Span, used: Collection[str] = ()) -> Iterator[Inlining]:
     """Yield what puts in a definition that a stretch touches the name of: this one use, or all.
 
     With all uses goes the definition, unless other scripts may need it. Nothing for definitions and uses with mistakes;
@@ -36,7 +36,7 @@ def inlinings(analysis: Analysis, within: Span, others: Iterable[Analysis] = ())
 
     Parameters
     ----------
-    others : scripts that may use this one.
+    used : the names of the files that other scripts use, as far as known.
     """
     for piece, further in pieces_touching(analysis, Span(within.start, within.start)):  # a name is in one
         for item in piece.items:
@@ -44,7 +44,7 @@ def inlinings(analysis: Analysis, within: Span, others: Iterable[Analysis] = ())
                 if _touches(use.node.name.span, further, within):
                     yield from _of_use(analysis, use)
             if isinstance(item, syntax.Let) and _touches(item.name.span, further, within):
-                yield from _of_all(analysis, item, others)
+                yield from _of_all(analysis, item, used)
 
 
 def _touches(name: Span, further: int, within: Span) -> bool:
@@ -85,7 +85,7 @@ def _of_use(analysis: Analysis, use: _Use) -> Iterator[Inlining]:
         yield Inlining(f"put in what `{let.name.text}` says", (Edit(analysis.made.now(use.node.span), text),))
 
 
-def _of_all(analysis: Analysis, let: syntax.Let, others: Iterable[Analysis]) -> Iterator[Inlining]:
+def _of_all(analysis: Analysis, let: syntax.Let, used: Collection[str]) -> Iterator[Inlining]:
     made = analysis.made
     definitions = made.gathered.definitions
     if definitions.find(let.name) is not let or has_errors(made.defined) or any(map(attrgetter("broken"), made.lines)):
@@ -100,17 +100,16 @@ def _of_all(analysis: Analysis, let: syntax.Let, others: Iterable[Analysis]) -> 
     if not edits or any(_overlap(one, other) for one, other in pairwise(_sorted(edits))):
         return
     title = f"put in what `{let.name.text}` says everywhere"
-    if _is_for_others(analysis, others):
+    if _is_for_others(analysis, used):
         yield Inlining(title, _sorted(edits))
     else:
         removal = Edit(_with_separator(made.source.text, made.now(let.span)), "")
         yield Inlining(f"{title}, and take it out", _sorted([*edits, removal]))
 
 
-def _is_for_others(analysis: Analysis, others: Iterable[Analysis]) -> bool:
-    """Return whether a script is there for others, as it has nothing but definitions, or is used by one of some."""
-    name = analysis.source.name
-    return not analysis.made.lines.words("used") or any(file.name == name for one in others for file in one.source.used)
+def _is_for_others(analysis: Analysis, used: Collection[str]) -> bool:
+    """Return whether a script is there for others, as it has nothing but definitions, or is used by one."""
+    return not analysis.made.lines.words("used") or analysis.source.name in used
 
 
 def _uses_of(made: InPieces, let: syntax.Let) -> Iterator[tuple[_Use, int]]:

@@ -18,7 +18,9 @@ from mlmg_lang.parsing.tokens import NAMES, Token
 from mlmg_lang.source import Span
 
 _MOST_TRIED: Final = 200
-"""So many names are tried in a place, at about a sixth of a millisecond each."""
+"""So many names are tried in a place without an `and`, at about a sixth of a millisecond each."""
+_FEWEST_TRIED: Final = 8
+"""And so many where many are joined by `and`, at some milliseconds each."""
 _MOST_AT_END: Final = 50
 """So many definitions, where nothing stands behind the cursor: others are offered untried; and so many of all that
 could be written, where nothing that has been found is right."""
@@ -60,6 +62,12 @@ class Trial:
                 return self.reach.definitions.lets[one.name].parameters is None
         return False
 
+    @property
+    def most(self) -> int:
+        """Return how many names are tried: fewer where there is more to be shared out among graphs."""
+        n_joined = 1 + sum(token.type == "AND" for token in (*self.own, *self.behind))
+        return max(_MOST_TRIED // n_joined**2, _FEWEST_TRIED)
+
     def verdict(self, one: Completion) -> Verdict:
         """Return how wrong the command is with a completion in its place."""
         return self.reach.judged(self._with(_name(one.text)))
@@ -75,7 +83,7 @@ class Trial:
         That is what has motions that the command leaves of all on their graph.
         """
         numbers = [at for at, one in enumerate(found) if one.what in _TRIED and self.tries(one)]
-        if not self.tries_library or len(numbers) <= _MOST_TRIED:
+        if not self.tries_library or len(numbers) <= self.most:
             return numbers
         some = {one.graph: one for one in map(found.__getitem__, numbers) if one.graph is not None}
         left = {graph: self.reach.left_on(graph, self._with(*self._all_on(one))) for graph, one in some.items()}
@@ -116,7 +124,7 @@ def tried(trial: Trial, found: Sequence[Completion], offered: Sequence[Completio
     most : when more than so many are found to be right, no more are tried.
     """
     numbers = trial.in_turn(found)
-    most_tried = _MOST_TRIED if trial.tries_library else _MOST_AT_END
+    most_tried = trial.most if trial.tries_library else _MOST_AT_END
     verdicts: dict[int, Verdict] = {}
     n_sound = 0
     for at in numbers[:most_tried]:
@@ -128,7 +136,7 @@ def tried(trial: Trial, found: Sequence[Completion], offered: Sequence[Completio
         left_out = {at for at, verdict in verdicts.items() if verdict is not Verdict.SOUND}
     else:
         best = min(verdicts.values(), default=Verdict.SOUND)
-        if best is not Verdict.SOUND and trial.can_be_right(offered, _MOST_AT_END):
+        if best is not Verdict.SOUND and trial.can_be_right(offered, min(trial.most, _MOST_AT_END)):
             best = Verdict.SOUND
         left_out = {at for at in numbers if at not in verdicts or verdicts[at] > best}
     kept = tuple([one for at, one in enumerate(found) if at not in left_out])

@@ -1,6 +1,6 @@
 """What can be rewritten without another meaning: `ide.actions`."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import fields, is_dataclass
 from typing import Any
 
@@ -195,13 +195,12 @@ def test_a_definition_stays_in_a_script_of_nothing_else(text: str, expected: lis
     assert results(text, reference, Kind.INLINE) == expected
 
 
-def test_a_definition_stays_in_a_script_that_another_uses(reference: Catalog, marked: Callable[..., Any]) -> None:
+def test_a_definition_stays_in_a_script_that_another_uses(reference: Catalog) -> None:
     text, within = at("let ¦A = WALK\nA for 2 sec\n")
     own = analyse(Source(text, "g.ms"), reference)
-    user, other = (marked(f"{first}¦WALK\n", name="user.ms", g=text).analysis for first in ('use "g.ms"\n', ""))
-    titles = [[one.title for one in actions(own, within, others)] for others in ((user,), (other,))]
+    titles = [[one.title for one in actions(own, within, used)] for used in (("f.ms", "g.ms"), ("f.ms",))]
     assert titles == [["put in what `A` says everywhere"], ["put in what `A` says everywhere, and take it out"]]
-    assert changed(text, actions(own, within, (user,))[0]) == "let A = WALK\n(WALK) for 2 sec\n"
+    assert changed(text, actions(own, within, ("g.ms",))[0]) == "let A = WALK\n(WALK) for 2 sec\n"
 
 
 @pytest.mark.parametrize(

@@ -72,8 +72,11 @@ def _parts(motion: syntax.Motion, scope: Scope) -> Iterator[tuple[syntax.Motion,
                 waiting.append((inner, on))
             case syntax.Call(name):
                 yield part, on
-                inside = None if scope.defines(name) else group_of(part)
-                waiting.extend([(inside, _meant(name, names))] if inside is not None else [])
+                if scope.defines(name):
+                    given = (one.value for one in reversed(part.arguments))
+                    waiting.extend((one, names.graphs) for one in given if not isinstance(one, syntax.Quantity))
+                elif (inside := group_of(part)) is not None:
+                    waiting.append((inside, _meant(name, names)))
             case _:
                 yield part, on
                 if isinstance(part, syntax.Qualified) and isinstance(part.motion, syntax.Call):
